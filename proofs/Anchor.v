@@ -17,7 +17,7 @@
    The interval [lo, hi] of a region is described by u in [0, 1] with t = lo + u (hi - lo).
    [local_pencil] computes, from the series and these bounds, an enclosed pencil over [0, 1];
    [local_line] and [local_chord] say that the exact condensed matrix is near a line, and near
-   chords, in the sense of Curved.v.
+   chords, in the sense of RootLeaf.v.
 
    The leaves of a region are checked for this local pencil, with the interval [0, 1] in place of
    that of the region.  [anchored_excludes]: a leaf that is not a solution excludes the solutions of
@@ -32,7 +32,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
 From Mceip Require Import Existence Pinned.
-From Mceip Require Import Places Condensation Pencil Claim Norms Elimination Curved Series.
+From Mceip Require Import Places Condensation Pencil Claim Norms Elimination Series.
 
 Set Implicit Arguments.
 Unset Strict Implicit.

@@ -20,7 +20,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
 From Mceip Require Import Existence Pinned Cover.
-From Mceip Require Import Condensation Pencil Claim Complete Norms Elimination Curved Series Anchor.
+From Mceip Require Import Condensation Pencil Claim Complete Norms Elimination Series Anchor.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -672,10 +672,9 @@ move: tight ok; case: (l) => [w|negative low high|c|c o] /= tight ok.
 - have D : decided (pencil_for false grain) local_r by case/and5P: ok.
   exact: (absent_sound E local_ordered D ok reg lin_sol).
 case/andP: ok => iso signs.
-have D : decided (pencil_for false grain) local_r by case/and5P: iso.
 case: o tight signs => [//|i _ /andP[iK neg]|i _ /and3P[Hi nm neg]].
-  exact: (negative_x_sound E local_ordered D iso iK neg reg lin_sol).
-exact: (negative_y_sound E local_ordered D iso Hi nm neg reg lin_sol).
+  exact: (negative_x_sound E local_ordered iso iK neg reg lin_sol).
+exact: (negative_y_sound E local_ordered iso Hi nm neg reg lin_sol).
 Qed.
 
 (* Polynomials of the blocks in u. *)
@@ -732,8 +731,7 @@ Theorem anchored_yields (st : seq state) c :
       t' = t /\ exists2 f, 0 < f & forall i, i \in iota 0 (order Q) -> x' i = f * x i].
 Proof.
 move=> checked; case/and3P: (checked) => _ _ root_ok.
-have D : decided (pencil_for true grain) (local_region (Region lo hi st)).
-  by case/andP: root_ok => /and5P[].
+have /andP[iso signs] := root_ok.
 have unit_u (u : R) : between u (lower (local_region (Region lo hi st)))
     (upper (local_region (Region lo hi st))) -> 0 <= u /\ u <= 1 by apply: between_unit.
 have [u [xs [bu sol reg uniq]]] : exists u xs,
@@ -744,8 +742,8 @@ have [u [xs [bu sol reg uniq]]] : exists u xs,
           in_region ns u' x' (local_region (Region lo hi st)) ->
           u' = u /\ exists2 g, 0 < g &
             forall i, i \in indices (pencil_for true grain) -> x' i = g * xs i].
-  apply: (@curved_solution _ _ _ _ _ (local_ordered st) D root_ok _
-            (free_det nf F_poly) family_poly).
+  apply: (@curved_solution _ _ _ _ _ (local_ordered st) iso _ (free_det nf F_poly) family_poly _ _
+            signs).
   - by move=> u u' /unit_u[u0 u1] /unit_u[v0 v1]; apply: local_chord.
   - by move=> u /unit_u[u0 _]; apply: free_det_neq0.
   by move=> u i j /unit_u[u0 _] _ _; apply: family_polyE.

@@ -281,12 +281,11 @@ move=> O; case: l => [w|negative low high|c|h c o|h c n|h c z|w|] /= ok reg sol;
 - have D : decided P r by case/and5P: ok.
   by case: (absent_sound E O D ok reg sol).
 - case/andP: ok => rh /andP[iso signs]; have Oh : ordered h.1 h.2 by case/and3P: rh.
-  have D : decided P (extended r h) by case/and5P: iso.
   have {}reg := in_extended O rh reg.
   case: o signs => [_|i /andP[iK neg]|i /and3P[Hi nm neg]].
   + by left; exists (Yield (extended r h) (from_point c) (to_point c)).
-  + by case: (negative_x_sound (r := extended r h) E Oh D iso iK neg reg sol).
-  by case: (negative_y_sound (r := extended r h) E Oh D iso Hi nm neg reg sol).
+  + by case: (negative_x_sound (r := extended r h) E Oh iso iK neg reg sol).
+  by case: (negative_y_sound (r := extended r h) E Oh iso Hi nm neg reg sol).
 - case/and3P: ok => rh lt_n claimed; have Oh : ordered h.1 h.2 by case/and3P: rh.
   have {}reg := in_extended O rh reg.
   have [t0 [x0 sol0]] := known_sound lt_n.
@@ -329,8 +328,7 @@ case/in_pmap=> -[r l] in_leaves; rewrite /yielded /=.
 have [/= O] := leaves_are_checked checked in_leaves.
 case: l in_leaves => // [h c []|h c n] //= in_leaves.
   case/andP=> /and3P[Oh _ _] /andP[iso signs] [<-] /=.
-  have D : decided P (extended r h) by case/and5P: iso.
-  have [t [x [bt sol reg uniq]]] := solution_sound (r := extended r h) E Oh D iso signs.
+  have [t [x [bt sol reg uniq]]] := solution_sound (r := extended r h) E Oh iso signs.
   by exists t, x; split=> // t' x' sol' reg'; have := uniq t' x' sol' reg'.
 case/and3P=> /and3P[Oh _ _] lt_n claimed; case: ifP => // supports [<-] /=.
 have [t [x sol0]] := known_sound lt_n.

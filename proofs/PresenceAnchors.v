@@ -20,8 +20,8 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover.
-From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination Curved.
+From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite RootLeaf Pinned Cover.
+From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination.
 From Mceip Require Import Series Anchor AnchorLeaf Varying ZeroReaction ZeroPencil Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence.
 

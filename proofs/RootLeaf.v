@@ -1,5 +1,16 @@
 (* Root leaves: at most one solution in a decided region, and what it is.
 
+   T(t) need not be linear in t: where the free rows of a pencil depend on t, the condensed matrix
+   is a quotient of polynomials.  Over one region it is known by an enclosed pencil P of the kind of
+   Enclosed.v, in two ways:
+
+   - *near a line*: for each t there is a pencil A + t B that P encloses with T(t) = A + t B;
+   - *near chords*: for each two t and t' there is a pencil A + t B that P encloses, with
+     T(t) = A + t B and T(t') = A + t' B.
+
+   Near a line is enough for every leaf that excludes: a solution of T at t is one of A + t B, and
+   the theorems about leaves hold for all A and B that P encloses ([line_solution]).
+
    Two kinds of evidence about a decided region with a moving variable.
 
    - *isolated*: the box and the uniqueness of Root.v on the interval of the region, and a sign
@@ -8,14 +19,17 @@
      The outcome says which:
        solution      V_j > eps for every j in K and y_i > 0 for every resting i: [solution_sound],
                      the region has exactly one solution, up to a positive factor;
+                     [curved_solution], if T is near chords there and f(t) T(t) is a matrix of
+                     polynomials with f(t) != 0 (existence is that of Existence.v for f T,
+                     uniqueness that of Root.v for the chord through both values);
        negative x_i  V_i < -eps for a moving i: [negative_x_sound], no solution;
        negative y_i  y_i < 0 for a resting i: [negative_y_sound], no solution.
    - *absent*: the box alone, and a vector u such that u' T_e x has one sign at both ends for every
      x of the box.  It is 0 for a null vector: [absent_sound], no solution.  The interval may end
      at infinity.
 
-   Page: spec/certificates.md, 5.11, steps 4 and 5.
-   Rust: crates/check/src/cover/root.rs, root/. *)
+   Page: spec/certificates.md, 5.7, 5.11 (steps 4 and 5), 5.14.
+   Rust: crates/check/src/cover/root.rs, root/, family.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
@@ -181,6 +195,13 @@ exists a, b; split=> //; split=> // i j.
 by rewrite /T /T_end -{1}[A i j]mul1r -one -{1}val !mulrDr !mulrDl !mulrA addrACA.
 Qed.
 
+Lemma zero_off_J (x : nat -> R) i : agrees (size_of P) r x -> i \in indices P -> i \notin J ->
+  x i = 0.
+Proof.
+move=> ag Hi iJ; have := moving_or_resting Hi; rewrite (negbTE iJ) /=.
+by have := agrees_at ag Hi; case: state_of.
+Qed.
+
 (* A solution of the region moves exactly on J, and is a null vector there. *)
 Lemma solution_on_J t x : solves t x -> in_region_of P t x r ->
   [/\ forall j, j \in J -> 0 < x j, forall i, i \in indices P -> i \notin J -> x i = 0 &
@@ -189,10 +210,7 @@ Proof.
 move=> [_ _ compl] [_ ag].
 have positive j : j \in J -> 0 < x j.
   by rewrite mem_filter => /andP[m /(agrees_at ag)]; move: m; case: state_of.
-have zero i : i \in indices P -> i \notin J -> x i = 0.
-  move=> Hi iJ; have := moving_or_resting Hi; rewrite (negbTE iJ) /=.
-  by have := agrees_at ag Hi; case: state_of.
-
+have zero i : i \in indices P -> i \notin J -> x i = 0 by apply: zero_off_J.
 split=> // l lJ; have [_ _ /eqP] := compl _ (moving_indices lJ).
 rewrite mulf_eq0 gt_eqF ?positive //= => /eqP; rewrite /image => row_zero.
 rewrite -[RHS]row_zero /moving big_filter [RHS](bigID (fun i => is_moving (state_of r i))) /=.
@@ -347,92 +365,6 @@ rewrite -(ler_pmul2r to2); apply: (@le_trans _ _ (toR (to_point c).1 * toR (uppe
 by rewrite -!toRM toR_le.
 Qed.
 
-Theorem isolated_exists : exists t x,
-  [/\ between t (from_point c) (to_point c), boxed (K k) k v eps x & null_vector t x].
-Proof.
-have [[kJ vk inside change] [_ narrow _]] := isolated_parts.
-case/and4P: inside => o to2 _ _; have [p q p' q'] := ordered_ge0 R o.
-have vk0 : 0 < toR (nth 0%Z v k) :> R by rewrite toR_gt0.
-have F2 : 0 < toR (from_point c).2 :> R by case/and5P: o => _ ? _ _ _; rewrite toR_gt0.
-have T2 : 0 < toR (to_point c).2 :> R by rewrite toR_gt0.
-pose ta : R := toR (from_point c).1 / toR (from_point c).2.
-pose tb : R := toR (to_point c).1 / toR (to_point c).2.
-
-have betweenE t : ta <= t <= tb -> between t (from_point c) (to_point c).
-  by rewrite /ta /tb ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
-have tab : ta <= tb.
-  rewrite /ta /tb ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
-  by case/and5P: o => _ _ _ _ /andP[].
-
-(* Regular on K, and boxed. *)
-have inj t : ta <= t <= tb -> injective_on (K k) (T t).
-  move=> /betweenE bt z; have [a [b [comb _]]] := combination_of_weights o bt.
-  exact: (regular_sound E moving_indices (@others_moving k) (uniq_others k)
-            narrow comb p q p' q').
-have boxed_at t x : ta <= t <= tb -> x k = toR (nth 0%Z v k) ->
-    (forall l, l \in K k -> row A B J t x l = 0) -> boxed (K k) k v eps x.
-  move=> /betweenE bt xk rows; have [a [b [comb _]]] := combination_of_weights o bt.
-  split=> //; exact: (box_sound E moving_indices (@others_moving k) kJ uniq_moving
-    (uniq_others k) narrow comb p q p' q' xk rows).
-
-(* At an end u' T_e x is u_k times row k. *)
-case/andP: change => uk change; have {}uk : 0 < toR (nth 0%Z (left_vector c) k) :> R.
-  by rewrite toR_gt0.
-have left_k e t x : 0 < toR e.2 :> R -> toR e.1 = t * toR e.2 ->
-    (forall l, l \in K k -> row A B J t x l = 0) ->
-    left_at x e (left_vector c) = toR (nth 0%Z (left_vector c) k) * (toR e.2 * row A B J t x k).
-  move=> e2 e1 rows; have rowE l : row_at x e l = toR e.2 * row A B J t x l.
-    rewrite /row_at /row mulr_sumr; apply: eq_bigr => j _.
-    by rewrite /T_end e1 /Enclosed.T; move: (A _ _) (B _ _) (x _) => *; ring.
-  rewrite /left_at (sum_pivot (@others_moving k) kJ uniq_moving (uniq_others k)).
-  rewrite [X in _ + X]sum_zero ?addr0 => [|l lK]; first by rewrite rowE.
-  by rewrite rowE rows // !mulr0.
-
-have [|t [x [tt xk rows]]] :=
-    null_vector_exists (@others_moving k) kJ uniq_moving (uniq_others k) vk0 tab inj.
-  move=> x y xk yk rows_x rows_y.
-  have bx := boxed_at _ _ (introT andP (conj (lexx ta) tab)) xk rows_x.
-  have by_ := boxed_at _ _ (introT andP (conj tab (lexx tb))) yk rows_y.
-  have e1 : toR (from_point c).1 = ta * toR (from_point c).2.
-    by rewrite /ta divfK // gt_eqF.
-  have e2 : toR (to_point c).1 = tb * toR (to_point c).2 by rewrite /tb divfK // gt_eqF.
-  have lx := left_k _ _ _ F2 e1 rows_x; have ly := left_k _ _ _ T2 e2 rows_y.
-  case/orP: change => /andP[s1 s2].
-    have x_neg : row A B J ta x k < 0.
-      by have := left_negative_sound kJ eps_ge0 bx p q s1; rewrite lx !pmulr_rlt0.
-    have y_pos : 0 < row A B J tb y k.
-      by have := left_positive_sound kJ eps_ge0 by_ p' q' s2; rewrite ly !pmulr_rgt0.
-    by rewrite nmulr_rlt0.
-  have x_pos : 0 < row A B J ta x k.
-    by have := left_positive_sound kJ eps_ge0 bx p q s1; rewrite lx !pmulr_rgt0.
-  have y_neg : row A B J tb y k < 0.
-    by have := left_negative_sound kJ eps_ge0 by_ p' q' s2; rewrite ly !pmulr_rlt0.
-  by rewrite pmulr_rlt0.
-
-exists t, x; split=> //; first exact: betweenE.
-by apply: boxed_at tt xk _ => l; rewrite others_moving => /andP[/rows].
-Qed.
-
-(* Every solution of the region is that null vector. *)
-Theorem isolated_unique t x t' x' :
-  between t (from_point c) (to_point c) -> boxed (K k) k v eps x -> null_vector t x ->
-  in_region_of P t' x' r -> solves t' x' ->
-  t' = t /\ exists2 f, 0 < f & forall j, j \in J -> f * x' j = x j.
-Proof.
-move=> bt bx null reg' sol'; have [[kJ vk _ _] [wide _ uniq]] := isolated_parts.
-have [p q p' q'] := ordered_ge0 R O.
-have [f f0 [xk' null']] := scaled_solution kJ vk sol' reg'.
-have [a [b [comb one]]] := combination_of_weights O (inside_region bt).
-have [a' [b' [comb' _]]] := combination_of_weights O (proj1 reg').
-
-have bx' : boxed (K k) k v (width (wide_box c)) (fun j => f * x' j).
-  split=> //; apply: (box_sound E moving_indices (@others_moving k) kJ uniq_moving
-    (uniq_others k) wide comb' p q p' q' xk'); exact: null_rows_K.
-have [tt xx] := unique_sound E moving_indices (@others_moving k) kJ uniq_moving (uniq_others k)
-  uniq p q p' q' comb one bx' (proj1 bx) null null'.
-by split=> //; exists f => // j jJ; rewrite xx.
-Qed.
-
 Lemma row_of_solution t x : forall i,
   image P A B t (fun j => if j \in J then x j else 0) i = \sum_(j <- J) T t i j * x j.
 Proof.
@@ -444,16 +376,223 @@ move=> i; rewrite /image (bigID (fun j => j \in J)) /= [X in _ + X]big1 => [|j /
 by rewrite mulr0.
 Qed.
 
-Theorem solution_sound : solution_signs P r c ->
-  exists t x, [/\ between t (from_point c) (to_point c), solves t x, in_region_of P t x r &
-    forall t' x', solves t' x' -> in_region_of P t' x' r ->
-      t' = t /\ exists2 f, 0 < f & forall i, i \in indices P -> x' i = f * x i].
+End Isolated.
+
+End Sound.
+
+(* A family that need not be linear. *)
+Section Curved.
+
+Variable R : rcfType.
+Variables (P : enclosed) (T : R -> nat -> nat -> R).
+
+Definition family_image t (x : nat -> R) i := \sum_(j <- indices P) T t i j * x j.
+
+Definition family_solves t (x : nat -> R) :=
+  [/\ 0 <= t, exists2 i, i \in indices P & x i != 0 &
+      forall i, i \in indices P ->
+        [/\ 0 <= x i, 0 <= family_image t x i & x i * family_image t x i = 0]].
+
+Definition on_pencil A B (t : R) := forall i j, i \in indices P -> j \in indices P ->
+  T t i j = Enclosed.T A B t i j.
+
+Definition near_line t := exists A B, encloses P A B /\ on_pencil A B t.
+
+Definition near_chord t t' := exists A B, [/\ encloses P A B, on_pencil A B t & on_pencil A B t'].
+
+Lemma chord_line t t' : near_chord t t' -> near_line t.
+Proof. by case=> A [B [E on _]]; exists A, B. Qed.
+
+Lemma pencil_solution A B t x : on_pencil A B t -> family_solves t x <-> solves P A B t x.
+Proof.
+move=> on; have imageE i : i \in indices P -> family_image t x i = image P A B t x i.
+  by move=> Hi; apply: sum_eq => j Hj; rewrite on.
+by split=> -[t0 nz rows]; split=> // i Hi; have := rows i Hi; rewrite imageE.
+Qed.
+
+Lemma line_solution t x : near_line t -> family_solves t x ->
+  exists A B, encloses P A B /\ solves P A B t x.
+Proof. by case=> A [B [E on]] /(pencil_solution x on) sol; exists A, B. Qed.
+
+Section Solution.
+
+Variables (r : region) (c : isolation).
+Hypotheses (O : ordered (lower r) (upper r)) (L : isolated P r c).
+Hypothesis chords : forall t t', between t (lower r) (upper r) -> between t' (lower r) (upper r) ->
+  near_chord t t'.
+
+Variables (f : {poly R}) (N : nat -> nat -> {poly R}).
+Hypothesis f_regular : forall t, between t (lower r) (upper r) -> f.[t] != 0.
+Hypothesis N_family : forall t i j, between t (lower r) (upper r) ->
+  i \in indices P -> j \in indices P -> (N i j).[t] = f.[t] * T t i j.
+
+Notation J := (moving P r).
+Notation K := (others P r).
+Notation k := (pivot c).
+Notation v := (vector c).
+Notation eps := (width (narrow_box c)).
+
+Let D : decided P r.
+Proof. by case/and5P: L. Qed.
+
+Lemma inside (t : R) : between t (from_point c) (to_point c) -> between t (lower r) (upper r).
+Proof. exact: (inside_region (R := R) O L (t := t)). Qed.
+
+Lemma line_at (t : R) : between t (lower r) (upper r) -> near_line t.
+Proof. by move=> bt; apply: (chord_line (chords bt bt)). Qed.
+
+Definition family_row t (x : nat -> R) l := \sum_(j <- J) T t l j * x j.
+
+Lemma pencil_row A B t x l : on_pencil A B t -> l \in J ->
+  family_row t x l = row A B J t x l.
+Proof.
+by move=> on lJ; apply: sum_eq => j jJ; rewrite on //; apply: (moving_indices (r := r)).
+Qed.
+
+Lemma poly_rowE (t : R) x l : between t (lower r) (upper r) -> l \in J ->
+  poly_row N J t x l = f.[t] * family_row t x l.
+Proof.
+move=> bt lJ; rewrite /poly_row mulr_sumr; apply: sum_eq => j jJ.
+by rewrite /poly_at N_family // ?mulrA //; apply: (moving_indices (r := r)).
+Qed.
+
+Lemma family_exists : exists t x,
+  [/\ between t (from_point c) (to_point c), boxed (K k) k v eps x &
+      forall l, l \in J -> family_row t x l = 0].
+Proof.
+have [[kJ vk inside_c change] [_ narrow _]] := isolated_parts L.
+case/and4P: inside_c => o to2 _ _; have [p q p' q'] := ordered_ge0 R o.
+have vk0 : 0 < toR (nth 0%Z v k) :> R by rewrite toR_gt0.
+have F2 : 0 < toR (from_point c).2 :> R by case/and5P: o => _ ? _ _ _; rewrite toR_gt0.
+have T2 : 0 < toR (to_point c).2 :> R by rewrite toR_gt0.
+have eps0 : 0 <= toR eps :> R := eps_ge0 R L.
+pose ta : R := toR (from_point c).1 / toR (from_point c).2.
+pose tb : R := toR (to_point c).1 / toR (to_point c).2.
+
+have betweenE t : ta <= t <= tb -> between t (from_point c) (to_point c).
+  by rewrite /ta /tb ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
+have tab : ta <= tb.
+  rewrite /ta /tb ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
+  by case/and5P: o => _ _ _ _ /andP[].
+have K_sub l : l \in K k -> l \in J by rewrite others_moving => /andP[].
+have regular_f t : ta <= t <= tb -> f.[t] != 0 by move=> /betweenE/inside/f_regular.
+
+(* Rows of f T that vanish. *)
+have rows_T t x l : ta <= t <= tb -> l \in J -> poly_row N J t x l = 0 -> family_row t x l = 0.
+  move=> tt lJ; rewrite poly_rowE //; last exact/inside/betweenE.
+  by move/eqP; rewrite mulf_eq0 (negbTE (regular_f _ tt)) => /eqP.
+
+(* Regular on K, and boxed. *)
+have inj t : ta <= t <= tb -> injective_on (K k) (poly_at N t).
+  move=> tt z rows; have bt := betweenE _ tt; have [A [B [E on]]] := line_at (inside bt).
+  have [a [b [comb _]]] := combination_of_weights A B o bt.
+  apply: (regular_sound E (@moving_indices P r) (@others_moving P r k) (uniq_others P r k)
+            narrow comb p q p' q') => l lK.
+  have : f.[t] * (\sum_(j <- K k) Enclosed.T A B t l j * z j) = 0.
+    have Hl := moving_indices (K_sub _ lK).
+    rewrite -[RHS](rows l lK) mulr_sumr; apply: sum_eq => j jK.
+    have Hj := moving_indices (K_sub _ jK).
+    by rewrite /poly_at (N_family (inside bt)) // on // mulrA.
+  by move/eqP; rewrite mulf_eq0 (negbTE (regular_f _ tt)) => /eqP.
+have boxed_at A B t x : encloses P A B -> on_pencil A B t -> ta <= t <= tb ->
+    x k = toR (nth 0%Z v k) ->
+    (forall l, l \in K k -> family_row t x l = 0) -> boxed (K k) k v eps x.
+  move=> E on /betweenE bt xk rows; have [a [b [comb _]]] := combination_of_weights A B o bt.
+  split=> //; apply: (box_sound E (@moving_indices P r) (@others_moving P r k) kJ
+    (uniq_moving P r) (uniq_others P r k) narrow comb p q p' q' xk) => l lK.
+  by rewrite -[RHS](rows l lK) (pencil_row _ on) //; apply: K_sub.
+
+case/andP: change => uk change; have {}uk : 0 < toR (nth 0%Z (left_vector c) k) :> R.
+  by rewrite toR_gt0.
+have left_k A B e t x : on_pencil A B t -> 0 < toR e.2 :> R -> toR e.1 = t * toR e.2 ->
+    (forall l, l \in K k -> family_row t x l = 0) ->
+    left_at P A B r x e (left_vector c) =
+      toR (nth 0%Z (left_vector c) k) * (toR e.2 * family_row t x k).
+  move=> on e2 e1 rows; have rowE l : l \in J ->
+      row_at P A B r x e l = toR e.2 * family_row t x l.
+    move=> lJ; rewrite (pencil_row _ on) // /row_at /row mulr_sumr; apply: eq_bigr => j _.
+    by rewrite /T_end e1 /Enclosed.T; move: (A _ _) (B _ _) (x _) => *; ring.
+  rewrite /left_at (sum_pivot (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k)).
+  rewrite [X in _ + X]sum_zero ?addr0 => [|l lK]; first by rewrite rowE.
+  by rewrite rowE ?K_sub // rows // !mulr0.
+
+have [|t [x [tt xk rows]]] :=
+    polynomial_null_vector (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k) vk0
+      tab inj.
+  have at_a : ta <= ta <= tb by rewrite lexx.
+  have at_b : ta <= tb <= tb by rewrite lexx andbT.
+  move=> x y xk yk rows_x rows_y.
+  have {}rows_x l : l \in K k -> family_row ta x l = 0.
+    by move=> lK; apply: rows_T => //; [apply: K_sub | apply: rows_x].
+  have {}rows_y l : l \in K k -> family_row tb y l = 0.
+    by move=> lK; apply: rows_T => //; [apply: K_sub | apply: rows_y].
+  have [A [B [E on]]] := line_at (inside (betweenE _ at_a)).
+  have [A' [B' [E' on']]] := line_at (inside (betweenE _ at_b)).
+  have bx := boxed_at _ _ _ _ E on at_a xk rows_x.
+  have by_ := boxed_at _ _ _ _ E' on' at_b yk rows_y.
+  have e1 : toR (from_point c).1 = ta * toR (from_point c).2.
+    by rewrite /ta divfK // gt_eqF.
+  have e2 : toR (to_point c).1 = tb * toR (to_point c).2 by rewrite /tb divfK // gt_eqF.
+  have lx := left_k _ _ _ _ _ on F2 e1 rows_x; have ly := left_k _ _ _ _ _ on' T2 e2 rows_y.
+  rewrite !poly_rowE //; try exact/inside/betweenE.
+
+  (* f has the same sign at both points. *)
+  have f_same : 0 < f.[ta] * f.[tb].
+    rewrite ltNge; apply/negP=> /(root_between tab)[t tt /rootP]; apply/eqP; exact: regular_f.
+  rewrite mulrACA pmulr_rlt0 //.
+  case/orP: change => /andP[s1 s2].
+    have x_neg : family_row ta x k < 0.
+      by have := left_negative_sound E kJ eps0 bx p q s1; rewrite lx !pmulr_rlt0.
+    have y_pos : 0 < family_row tb y k.
+      by have := left_positive_sound E' kJ eps0 by_ p' q' s2; rewrite ly !pmulr_rgt0.
+    by rewrite nmulr_rlt0.
+  have x_pos : 0 < family_row ta x k.
+    by have := left_positive_sound E kJ eps0 bx p q s1; rewrite lx !pmulr_rgt0.
+  have y_neg : family_row tb y k < 0.
+    by have := left_negative_sound E' kJ eps0 by_ p' q' s2; rewrite ly !pmulr_rlt0.
+  by rewrite pmulr_rlt0.
+
+have {}rows l : l \in J -> family_row t x l = 0 by move=> lJ; apply: rows_T => //; apply: rows.
+exists t, x; split=> //; first exact: betweenE.
+have [A [B [E on]]] := line_at (inside (betweenE _ tt)).
+by apply: (boxed_at A B t) => // l lK; apply/rows/K_sub.
+Qed.
+
+(* Every solution of the region is that null vector: by the chord through both values. *)
+Lemma family_unique t x t' x' : between t (from_point c) (to_point c) ->
+  boxed (K k) k v eps x -> (forall l, l \in J -> family_row t x l = 0) ->
+  in_region_of P t' x' r -> family_solves t' x' ->
+  t' = t /\ exists2 g, 0 < g & forall j, j \in J -> g * x' j = x j.
+Proof.
+move=> bt bx rows reg'; have [[kJ vk _ _] [wide _ uniq]] := isolated_parts L.
+have [p q p' q'] := ordered_ge0 R O.
+have [A [B [E on1 on2]]] := chords (inside bt) (proj1 reg').
+move/(pencil_solution x' on2)=> sol'.
+have [g g_gt0 [xk' null']] := scaled_solution D kJ vk sol' reg'.
+have [a [b [comb one]]] := combination_of_weights A B O (inside bt).
+have [a' [b' [comb' _]]] := combination_of_weights A B O (proj1 reg').
+have bx' : boxed (K k) k v (width (wide_box c)) (fun j => g * x' j).
+  split=> //; apply: (box_sound E (@moving_indices P r) (@others_moving P r k) kJ
+    (uniq_moving P r) (uniq_others P r k) wide comb' p q p' q' xk'); exact: null_rows_K.
+have null l : l \in J -> \sum_(j <- J) Enclosed.T A B t l j * x j = 0.
+  by move=> lJ; rewrite -[RHS](rows l lJ) (pencil_row _ on1).
+have [tt xx] := unique_sound E (@moving_indices P r) (@others_moving P r k) kJ (uniq_moving P r)
+  (uniq_others P r k) uniq p q p' q' comb one bx' (proj1 bx) null null'.
+by split=> //; exists g => // j jJ; rewrite xx.
+Qed.
+
+Theorem curved_solution : solution_signs P r c ->
+  exists t x, [/\ between t (from_point c) (to_point c), family_solves t x, in_region_of P t x r &
+    forall t' x', family_solves t' x' -> in_region_of P t' x' r ->
+      t' = t /\ exists2 g, 0 < g & forall i, i \in indices P -> x' i = g * x i].
 Proof.
 case/andP=> /allP x_signs /allP y_signs.
-have [[kJ vk /and4P[o to2 _ _] _] _] := isolated_parts.
+have [[kJ vk /and4P[o to2 _ _] _] _] := isolated_parts L.
 have [p q p' q'] := ordered_ge0 R o.
-have [t [x [bt bx null]]] := isolated_exists.
+have eps0 : 0 <= toR eps :> R := eps_ge0 R L.
+have [t [x [bt bx rows]]] := family_exists.
 pose s j := if j \in J then x j else 0.
+have [A [B [E on]]] := line_at (inside bt).
 
 have positive j : j \in J -> 0 < x j.
   move=> jJ; have [->|jk] := eqVneq j k; first by rewrite (proj1 bx) toR_gt0.
@@ -465,30 +604,85 @@ have t0 : 0 <= t.
   have f2 : 0 < toR (from_point c).2 :> R by case/and5P: o => _ ? _ _ _; rewrite toR_gt0.
   by rewrite -(pmulr_lge0 _ f2); apply: le_trans (proj1 bt).
 
+have region_s : in_region_of P t s r.
+  split; first exact: inside.
+  move=> i lt_i; have Hi : i \in indices P by rewrite mem_iota.
+  have iJ : (i \in J) = is_moving (state_of r i) by rewrite mem_filter Hi andbT.
+  rewrite /s iJ; have := moving_or_resting D Hi; rewrite iJ.
+  by have := positive i; rewrite iJ; case: (state_of r i) => //= h _; apply: h.
+
 exists t, s; split=> //.
-- split=> //; first by exists k; [exact: moving_indices | rewrite /s kJ gt_eqF // positive].
+- apply/(pencil_solution s on); split=> //.
+    by exists k; [apply: (moving_indices (r := r)) | rewrite /s kJ gt_eqF // positive].
   move=> i Hi; rewrite row_of_solution /s; have [iJ|iJ] := boolP (i \in J).
-    by rewrite null // mulr0 lexx ltW // positive.
+    by rewrite -/(row A B J t x i) -(pencil_row _ on) // rows // mulr0 lexx ltW // positive.
   rewrite mul0r lexx; split=> //; apply: ltW.
-  have [a [b [comb _]]] := combination_of_weights o bt; have [a0 b0 ab _] := comb.
-  rewrite (row_combination _ _ comb).
+  have [a [b [comb _]]] := combination_of_weights A B o bt; have [a0 b0 ab _] := comb.
+  rewrite (row_combination P r x i comb).
   have not_moving : is_moving (state_of r i) = false.
     by move: iJ; rewrite mem_filter Hi andbT => /negbTE.
   have := y_signs _ Hi; rewrite not_moving /= => /andP[y1 y2].
-  apply: combination_gt0 => //; first exact: (row_positive_sound kJ eps_ge0 bx p q Hi y1).
-  exact: (row_positive_sound kJ eps_ge0 bx p' q' Hi y2).
-- split; first exact: inside_region.
-  move=> i lt_i; have Hi : i \in indices P by rewrite mem_iota.
-  have iJ : (i \in J) = is_moving (state_of r i) by rewrite mem_filter Hi andbT.
-  rewrite /s iJ; have := moving_or_resting Hi; rewrite iJ.
-  by have := positive i; rewrite iJ; case: (state_of r i) => //= h _; apply: h.
+  apply: combination_gt0 => //; first exact: (row_positive_sound E kJ eps0 bx p q Hi y1).
+  exact: (row_positive_sound E kJ eps0 bx p' q' Hi y2).
 
-move=> t' x' sol' reg'; have [-> [f f0 scaled]] := isolated_unique bt bx null reg' sol'.
-split=> //; exists f^-1 => [|i Hi]; first by rewrite invr_gt0.
-rewrite /s; have [iJ|iJ] := boolP (i \in J).
-  by rewrite -scaled // mulKf // gt_eqF.
-by have [_ zero _] := solution_on_J sol' reg'; rewrite zero // mulr0.
+move=> t' x' sol' reg'; have [tt [g g0 scaled]] := family_unique bt bx rows reg' sol'.
+split=> //; exists g^-1 => [|i Hi]; first by rewrite invr_gt0.
+rewrite /s; have [iJ|iJ] := boolP (i \in J); first by rewrite -scaled // mulKf // gt_eqF.
+by rewrite (zero_off_J D (proj2 reg')) // mulr0.
 Qed.
+
+End Solution.
+
+End Curved.
+
+(* A pencil is such a family, with f = 1. *)
+Section Pencil.
+
+Variable R : rcfType.
+Variables (P : enclosed) (A B : nat -> nat -> R).
+Hypothesis E : encloses P A B.
+
+Variables (r : region) (c : isolation).
+Hypotheses (O : ordered (lower r) (upper r)) (L : isolated P r c).
+
+Notation T := (T A B).
+Notation solves := (solves P A B).
+Notation J := (moving P r).
+Notation K := (others P r).
+Notation null_vector := (null_vector A B J).
+Notation k := (pivot c).
+Notation v := (vector c).
+Notation eps := (width (narrow_box c)).
+
+Let D : decided P r.
+Proof. by case/and5P: L. Qed.
+
+Let chords (t t' : R) : between t (lower r) (upper r) -> between t' (lower r) (upper r) ->
+  near_chord P T t t'.
+Proof. by exists A, B. Qed.
+
+Let one_regular (t : R) : between t (lower r) (upper r) -> (1 : {poly R}).[t] != 0.
+Proof. by rewrite hornerC oner_neq0. Qed.
+
+Let entries (t : R) i j : between t (lower r) (upper r) -> i \in indices P -> j \in indices P ->
+  (linear_entry A B i j).[t] = (1 : {poly R}).[t] * T t i j.
+Proof. by rewrite hornerC mul1r -linear_entryE. Qed.
+
+Theorem isolated_exists : exists t x,
+  [/\ between t (from_point c) (to_point c), boxed (K k) k v eps x & null_vector t x].
+Proof. exact: (family_exists O L chords one_regular entries). Qed.
+
+Theorem isolated_unique t x t' x' :
+  between t (from_point c) (to_point c) -> boxed (K k) k v eps x -> null_vector t x ->
+  in_region_of P t' x' r -> solves t' x' ->
+  t' = t /\ exists2 f, 0 < f & forall j, j \in J -> f * x' j = x j.
+Proof. exact: (family_unique O L chords). Qed.
+
+Theorem solution_sound : solution_signs P r c ->
+  exists t x, [/\ between t (from_point c) (to_point c), solves t x, in_region_of P t x r &
+    forall t' x', solves t' x' -> in_region_of P t' x' r ->
+      t' = t /\ exists2 f, 0 < f & forall i, i \in indices P -> x' i = f * x i].
+Proof. exact: (curved_solution O L chords one_regular entries). Qed.
 
 Theorem negative_x_sound i t x : i \in K k -> (nth 0%Z v i <? - eps)%Z ->
   in_region_of P t x r -> solves t x -> False.
@@ -496,7 +690,7 @@ Proof.
 move=> iK neg reg sol; have [t' [x' [bt bx null]]] := isolated_exists.
 have [_ [f f0 scaled]] := isolated_unique bt bx null reg sol.
 have iJ : i \in J by move: iK; rewrite others_moving => /andP[].
-have [positive _ _] := solution_on_J sol reg.
+have [positive _ _] := solution_on_J D sol reg.
 have := (proj2 bx) _ iK; rewrite ler_distl => /andP[_].
 rewrite -scaled //; apply/negP; rewrite -ltNge.
 apply: (@lt_trans _ _ 0); last by rewrite mulr_gt0 // positive.
@@ -509,9 +703,9 @@ Theorem negative_y_sound i t x : i \in indices P -> ~~ is_moving (state_of r i) 
 Proof.
 move=> Hi not_moving /andP[n1 n2] reg sol; have [t' [x' [bt bx null]]] := isolated_exists.
 have [tt [f f0 scaled]] := isolated_unique bt bx null reg sol.
-have [[kJ _ /and4P[o _ _ _] _] _] := isolated_parts.
+have [[kJ _ /and4P[o _ _ _] _] _] := isolated_parts L.
 have [p q p' q'] := ordered_ge0 R o.
-have [_ zero _] := solution_on_J sol reg.
+have [_ zero _] := solution_on_J D sol reg.
 have [_ _ compl] := sol; have [_ + _] := compl _ Hi; apply/negP; rewrite -ltNge.
 
 have imageE : f * image P A B t x i = \sum_(j <- J) T t i j * x' j.
@@ -522,13 +716,11 @@ have imageE : f * image P A B t x i = \sum_(j <- J) T t i j * x' j.
     by apply: eq_in_filter => j Hj; rewrite mem_filter Hj andbT.
   by apply: eq_big_seq => j jJ; rewrite -scaled // mulrCA.
 rewrite -(pmulr_rlt0 _ f0) imageE tt.
-have [a [b [comb _]]] := combination_of_weights o bt; have [a0 b0 ab _] := comb.
-rewrite (row_combination _ _ comb) -oppr_gt0 opprD -!mulrN.
+have [a [b [comb _]]] := combination_of_weights A B o bt; have [a0 b0 ab _] := comb.
+rewrite (row_combination P r x' i comb) -oppr_gt0 opprD -!mulrN.
 apply: combination_gt0 => //; rewrite oppr_gt0.
-  exact: (row_negative_sound kJ eps_ge0 bx p q Hi n1).
-exact: (row_negative_sound kJ eps_ge0 bx p' q' Hi n2).
+  exact: (row_negative_sound E kJ (eps_ge0 R L) bx p q Hi n1).
+exact: (row_negative_sound E kJ (eps_ge0 R L) bx p' q' Hi n2).
 Qed.
 
-End Isolated.
-
-End Sound.
+End Pencil.
