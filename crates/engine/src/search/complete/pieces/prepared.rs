@@ -473,10 +473,12 @@ impl WindowDivision<'_> {
 
         // An infinite interval needs a family that is linear in t. One anchor stands for all t
         // where the free rows of B are zero in their own columns only: then there is no end.
-        let end = if end.is_finite() {
+        // A window may begin beyond where the anchor is good: it is used there all the same.
+        let begin = to_f64(lo);
+        let end = if end.is_finite() && end > begin {
             end
         } else {
-            FAR * self.condensed.view.scale
+            FAR * (self.condensed.view.scale + begin)
         };
 
         short_near(end, SLACK_OF_END * end)
