@@ -349,7 +349,9 @@ Qed.
 
 Corollary complete_none : found = [::] -> left_open = [::] ->
   forall (t : R) x, solution Q t x -> between t lo hi -> False.
-Proof. by move=> none no_open; have := complete_sound; rewrite none no_open; apply: covers_none. Qed.
+Proof.
+by move=> none no_open; have := complete_sound; rewrite none no_open; apply: covers_none.
+Qed.
 
 Theorem claim_place k : check_solution_claim Q k ->
   within (known_from (known_of Q k), known_to (known_of Q k)) (lo, hi) ->
@@ -365,7 +367,9 @@ Qed.
 Corollary complete_exactly ys :
   solutions_found Q claims tr lo hi = Some ys -> left_open = [::] ->
   all_listed (solution Q) (proportional Q) lies_in lo hi ys no_other.
-Proof. by move=> /complete_number + no_open; apply: listed_weaken => t x; rewrite no_open => -[]. Qed.
+Proof.
+by move=> /complete_number + no_open; apply: listed_weaken => t x; rewrite no_open => -[].
+Qed.
 
 End Complete.
 

@@ -100,7 +100,8 @@ Qed.
 
 Definition no_other (t : R) (x : nat -> R) := False.
 
-Lemma listed_none : all_listed [::] no_other -> forall t x, solution t x -> between t lo hi -> False.
+Lemma listed_none :
+  all_listed [::] no_other -> forall t x, solution t x -> between t lo hi -> False.
 Proof.
 by case=> -[|m l] [//_ _ _ _ every] t x sol bt; case: (every t x sol bt) => [[]|].
 Qed.
@@ -322,7 +323,8 @@ have [[y yields_y reg_y]|l_open] := leaf_sound O ok reg sol.
 by right; exists r => //; apply/in_pmap; exists (r, l); rewrite // l_open.
 Qed.
 
-Lemma each_yield_has_one y : List.In y found -> has_one solves same_direction (fun r t x => in_region_of P t x r) y.
+Lemma each_yield_has_one y :
+  List.In y found -> has_one solves same_direction (fun r t x => in_region_of P t x r) y.
 Proof.
 case/in_pmap=> -[r l] in_leaves; rewrite /yielded /=.
 have [/= O] := leaves_are_checked checked in_leaves.

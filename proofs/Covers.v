@@ -93,7 +93,9 @@ Hypothesis checked : check_families Q claims c lo hi ls.
 Theorem families_number ys : all_solutions Q claims c lo hi ls = Some ys ->
   all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys
     (unlisted (R := R) (lies_in Q) (families c lo hi ls) (still_open c lo hi ls)).
-Proof. by case/andP: checked => ok supports; apply: (cover_number supports (cover_covers R ok)). Qed.
+Proof.
+by case/andP: checked => ok supports; apply: (cover_number supports (cover_covers R ok)).
+Qed.
 
 Corollary families_exactly ys : all_solutions Q claims c lo hi ls = Some ys ->
   families c lo hi ls = [::] -> still_open c lo hi ls = [::] ->

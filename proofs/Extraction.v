@@ -36,12 +36,14 @@ Extraction "kernel.ml"
   answer integral_answer scaled slips slipping with_zero long_normal complementarity zero_system_of
   pencil_of_integral support_pencil slipping_variables
   sliding_poly pressure_poly right_poly left_poly check_solution_claim reaction_poly
-  regions_found families_of regions_open zero_undecided pencil_of blocks_of condensed slip zero infinity window check_whole check_end
+  regions_found families_of regions_open zero_undecided pencil_of blocks_of condensed slip zero
+  infinity window check_whole check_end
   free_rows_constant symmetric_part definite_end farkas check_absent check_root pinned
   check_claimed check_infinite active moving members member_form defect residual check_unique
   decide check_support column_poly row_poly positive_on check_value low_on high_on
   zero_poly scale_poly check_local expansions local_pencil
   local_point proper_interval swap_pencil condensed_parts part_plain part_friction pencil_at
   mixed box_expansions friction_anchor check_parts box_regular restricted combine_rows
-  check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held is_apart applied_row equations
+  check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held
+  is_apart applied_row equations
   inequalities scaled_row signed_part check_given_rates.

@@ -315,7 +315,8 @@ by split=> //; have [_ bt] := inside_sound R O ok_h ins.
 Qed.
 
 Lemma belongs_sound y f t x : List.In f (families_of rs ls) -> belongs ns y f ->
-  between t (yield_from y) (yield_to y) -> lies_in Q (yield_region y) t x -> in_family (lies_in Q) f t x.
+  between t (yield_from y) (yield_to y) -> lies_in Q (yield_region y) t x ->
+  in_family (lies_in Q) f t x.
 Proof.
 move=> f_in /andP[inside states] bt [_ ag]; have [ok into] := family_inside f_in.
 suff at_t : in_place (held_place f.2) t.

@@ -412,7 +412,8 @@ Lemma system_cover_sound sys u lo hi c s : system_wellformed sys u ->
 Proof.
 move=> wf is_s; have := answer_cover_sound is_s.
 have [lo' [hi' [set ->]]] : exists lo' hi' set, s = AllInWindow lo' hi' set.
-  case: c is_s => [claims c _ ls|claims c ls] /=; case: ifP => // _; rewrite /told; case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
+  case: c is_s => [claims c _ ls|claims c ls] /=; case: ifP => // _; rewrite /told;
+    case: (X in if X is Some _ then _ else _) => [ys|//] [<-]; do 3 eexists;
     reflexivity.
 case=> /solutions_are number each; split; last by move=> f /each; apply: (motions_hold wf).
 exact/solutions_are/(motions_number wf number).

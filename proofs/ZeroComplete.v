@@ -353,7 +353,8 @@ Hypothesis checked : check_zero_complete z u claims c lo hi bs ls.
 Notation s := (without_zero z).
 Notation Q := (zero_pencil z u).
 
-Lemma zero_complete_parts : [/\ zero_wellformed z u, check_supports Q (zero_undecided c lo hi bs) ls &
+Lemma zero_complete_parts :
+  [/\ zero_wellformed z u, check_supports Q (zero_undecided c lo hi bs) ls &
   covers (solution Q) (proportional Q) (lies_in Q) lo hi
     (regions_found Q claims c lo hi ++ pinned_yields (regions_open c lo hi) bs)
     (in_some (R := R) (lies_in Q) (zero_undecided c lo hi bs))].
@@ -368,7 +369,9 @@ Theorem zero_complete_number ys : zero_solutions z u claims c lo hi bs ls = Some
   all_listed (satisfies_9z z u) (same_motion s) (zero_motion_in z u) lo hi ys
     (unlisted (R := R) (zero_motion_in z u) (zero_families c lo hi bs ls)
        (zero_still_open z c lo hi bs ls)).
-Proof. by have [wf supports cover] := zero_complete_parts; apply: (zero_cover_number wf supports). Qed.
+Proof.
+by have [wf supports cover] := zero_complete_parts; apply: (zero_cover_number wf supports).
+Qed.
 
 Corollary zero_none : zero_solutions z u claims c lo hi bs ls = Some [::] ->
   zero_families c lo hi bs ls = [::] -> zero_still_open z c lo hi bs ls = [::] ->
