@@ -14,6 +14,14 @@ pub(crate) fn decimal_order(v: &Rational) -> i64 {
     (binary_order(v) * 30_103 + 50_000).div_euclid(100_000) // log10(2) = 0.30103, to the nearest
 }
 
+/// Largest magnitude of a number whose square is a double, with room for sums.
+const LARGEST: f64 = 1e150;
+
+/// Is the square of a number of this size within the range of doubles?
+pub(crate) fn has_square_in_doubles(size: f64) -> bool {
+    (LARGEST.recip()..=LARGEST).contains(&size.abs())
+}
+
 /// 2^exponent.
 pub(crate) fn two_to(exponent: i64) -> Rational {
     let power = Rational::from_integer(Integer::one() << exponent.unsigned_abs());

@@ -1,7 +1,7 @@
 //! Why a system is not analysed, and the check that doubles can carry its numbers.
 
 use super::model::MAX_SAMPLES;
-use crate::magnitude::decimal_order;
+use crate::magnitude::{decimal_order, has_square_in_doubles};
 use crate::search::complete::CompleteError;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::{ModelError, System};
@@ -66,9 +66,6 @@ pub(super) fn require_question(system: &System, friction: &Rational) -> Result<(
     Ok(())
 }
 
-/// Largest magnitude of an entry: its square is within the range of doubles.
-const LARGEST: f64 = 1e150;
-
 /// Refuses entries whose squares leave the doubles: the searches propose in doubles.
 pub(super) fn require_doubles(system: &System) -> Result<(), AnalysisError> {
     require_doubles_in("K", system.stiffness())?;
@@ -80,8 +77,7 @@ pub(super) fn require_doubles(system: &System) -> Result<(), AnalysisError> {
 
 fn require_doubles_in(what: &'static str, matrix: &Sparse) -> Result<(), AnalysisError> {
     for (row, col, v) in matrix.entries() {
-        let size = to_f64(v).abs();
-        if !(LARGEST.recip()..=LARGEST).contains(&size) {
+        if !has_square_in_doubles(to_f64(v)) {
             return Err(AnalysisError::Units {
                 what,
                 row,

@@ -19,6 +19,7 @@ use super::reverse::{ReversedAnchor, beyond, exchanged};
 use super::skyline::Skyline;
 use super::view::{View, scale_of};
 use super::wide::{DefiniteAnchors, WideAnchors};
+use crate::magnitude::has_square_in_doubles;
 use crate::search::complete::dyadic::{multiple_near, short_below};
 use crate::search::complete::error::CompleteError;
 use crate::search::complete::leaf::tail::tail;
@@ -69,15 +70,13 @@ pub(crate) fn condense(
 
     // The bounds of A_ff and B_ff.
     let first_free = blocks.free[0];
-    let stiffness = stiffness_bound(&blocks).ok_or(CompleteError::NotDefinite {
-        what: "A_ff",
-        index: first_free,
-    })?;
+    let given_stiffness = pencil.a().submatrix(&blocks.free, &blocks.free);
+    let stiffness = stiffness_bound(&blocks);
+    let stiffness =
+        stiffness.ok_or_else(|| without_bound("A_ff", &given_stiffness, &blocks.free))?;
     let given_mass = pencil.b().submatrix(&blocks.free, &blocks.free);
-    let mass = mass_bound(&blocks.mass, &given_mass).ok_or(CompleteError::NotDefinite {
-        what: "B_ff",
-        index: first_free,
-    })?;
+    let mass = mass_bound(&blocks.mass, &given_mass);
+    let mass = mass.ok_or_else(|| without_bound("B_ff", &given_mass, &blocks.free))?;
     let elimination = FreeElimination {
         pencil,
         blocks,
@@ -226,6 +225,21 @@ impl Above {
             Above::Tail(tail) => Some(to_f64(&tail.from.0)),
             Above::Reversed(beyond) => Some(to_f64(&beyond.from)),
         }
+    }
+}
+
+/// Why a free block has no bound: its entries are beyond what doubles carry, or it is indefinite.
+fn without_bound(what: &'static str, block: &Sparse, free: &[usize]) -> CompleteError {
+    let mut entries = block.entries();
+    match entries.find(|(_, _, v)| !has_square_in_doubles(to_f64(v))) {
+        Some((row, _, _)) => CompleteError::Hypothesis {
+            expected: "A_ff and B_ff with entries between 10^-150 and 10^150",
+            row,
+        },
+        None => CompleteError::NotDefinite {
+            what,
+            index: free[0],
+        },
     }
 }
 
