@@ -80,6 +80,17 @@ def test_a_particle_may_have_its_own_friction():
     assert halved.solve().solutions[0].value == with_contacts([ROW]).solve().solutions[0].value
 
 
+def test_answers_call_a_particle_by_its_name():
+    named = with_contacts([mceip.Contact(0, 1, "slip+", name="heel")], friction=3)
+    tabled = with_contacts([{**ROW, "particle": "heel"}], friction=3)
+    plain = with_contacts([mceip.Contact(0, 1, "slip+")], friction=3)
+
+    assert named.sha256 == tabled.sha256 == plain.sha256
+    for problem, name in [(named, "heel"), (tabled, "heel"), (plain, "0")]:
+        sentences = problem.analyze(samples=0).answer["sentences"]
+        assert f"slipping: {name}; at rest: none" in str(sentences)
+
+
 def test_a_table_may_be_a_data_frame():
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame([ROW])

@@ -114,7 +114,7 @@ def test_what_looks_wrong_is_said_and_repeated_unless_it_is_accepted():
 
 def test_loads_are_lists_or_mappings_and_matrices_of_any_kind():
     stiffness = scipy.sparse.csr_matrix([[2.0, 0.0], [0.0, 1.0]])
-    body = mceip.Body(stiffness, candidates=[mceip.Candidate(0, 1)])
+    body = mceip.Body(stiffness, candidates=[mceip.Candidate(0, 1, name="heel")])
     press = mceip.Step("press", forces={1: 3})
     paths = [
         body.path([press, mceip.Step("push", forces=push)], "1/2")
@@ -126,6 +126,7 @@ def test_loads_are_lists_or_mappings_and_matrices_of_any_kind():
         last = path.stretches[-1]
         assert (last.start, last.states.tolist()) == (0.75, ["slip+"])
         assert last.problem.unknown == "mu"
+        assert "heel: friction cone reached" in str(path)
 
 
 @pytest.mark.parametrize(
