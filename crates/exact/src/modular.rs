@@ -9,11 +9,11 @@
 //! 1. F is eliminated modulo p, within its band, in the bordered matrix [F C; R D]; what is left of
 //!    D is the Schur complement modulo p, and the product of the pivots is det(F). Where the first
 //!    columns of the bordered matrix are symmetric, as those of a stiffness beside loads, only what
-//!    is right of the diagonal is computed;
+//!    is on the diagonal or right of it is computed;
 //! 2. Garner's algorithm (Knuth, The Art of Computer Programming 2, section 4.3.2) adds the
 //!    residues to the numbers known modulo the primes before.
 //!
-//! Input: rational blocks, cleared of their common denominator. Called by `engine` and `paper`,
+//! Input: rational blocks, cleared of their common denominator. Called by `engine` and `path`,
 //! which condense the stiffness of a finite-element mesh to its contact nodes.
 
 use super::prime::{Field, primes};

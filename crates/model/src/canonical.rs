@@ -109,10 +109,12 @@ fn write_particle(out: &mut String, particle: &Particle) {
         tangential,
         normal,
         state,
-        normal_direction: _, // with the frame in the two directions
+        // These two are in the directions below.
+        normal_direction: _,
         frame: _,
         friction_factor,
-        reaction: _, // no part of what is asked
+        // These two are no part of the question.
+        reaction: _,
         name: _,
     } = particle;
     let state = state.word();

@@ -5,7 +5,7 @@
 //! 0 and S = -1), `slip-` (the other way, S = 1), `stick`, `free`, or `zero` (in contact, no
 //! reaction). Optional are
 //!
-//! * `particle`: a label;
+//! * `particle`: a name;
 //! * `normal_direction`: 1 if the normal dof is positive into the obstacle (default), -1 if it is
 //!   positive away from it;
 //! * `angle`: degrees by which the obstacle's tangent is turned from the tangential dof towards the
@@ -208,7 +208,7 @@ impl Column {
 /// A table of contacts, read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactTable {
-    /// One for each line, with its label as name.
+    /// One for each line.
     pub particles: Vec<Particle>,
     /// For each particle, the reaction that the table gives.
     pub reactions: Vec<Option<TableReaction>>,
@@ -245,8 +245,8 @@ pub fn read_contacts(
     })
 }
 
-/// Reads a table of contact candidates, one for each line with its label as name, whose states
-/// follow from loads; see [`read_contacts`].
+/// Reads a table of contact candidates, one for each line, whose states follow from loads; see
+/// [`read_contacts`].
 ///
 /// # Errors
 /// [`ContactsError`] with line and column.

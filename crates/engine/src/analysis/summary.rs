@@ -99,7 +99,7 @@ impl Analysis {
         match &self.critical.solution {
             Some(solution) => self.two_bounds(below, solution),
             None if below.is_zero() => {
-                "No bound below which there is none is proved, and none is known.".into()
+                "No bound below which there is no such motion is proved, and none is known.".into()
             }
             None => format!(
                 "There is no such motion below mu = {}, and none is known above.",
@@ -139,8 +139,9 @@ impl Analysis {
         };
 
         format!(
-            "There is no such motion below mu = {}, and growth is unbounded as mu {} {place}, where \
-             the mass matrix M* loses its property (Painleve), its solution there taken to be regular{}.",
+            "There is no such motion below mu = {}, and growth is unbounded as mu {} {place}, \
+             where the mass matrix M* loses its property (Painleve), its solution there taken to \
+             be regular{}.",
             down(below),
             unbounded.verb(),
             self.gap_text()

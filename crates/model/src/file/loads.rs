@@ -194,7 +194,7 @@ mod tests {
             {"name": "press", "forces": [[1, -3]]},
             {"displacements": [[2, "1/3"]], "endless": true}
         ],
-        "coordinates": {"nodes": [[0, 1, 0, 0], [2, null, 1, 0]]}
+        "coordinates": {"nodes": [[0, 1, 0, 0], [2, null, 1, 0]], "particles": ["heel"]}
     }"#;
 
     fn read(text: &str) -> Result<LoadsFile, ModelError> {
@@ -212,6 +212,9 @@ mod tests {
         assert!(body.steps()[1].is_endless);
         assert_eq!(body.loads()[1], [rational(1, 3), whole(0)]);
         assert_eq!(body.system().friction(), Some(&rational(1, 2)));
+
+        // The names beside the coordinates are those of the candidates.
+        assert_eq!(body.system().particles()[0].name.as_deref(), Some("heel"));
 
         // The held dof moves no node.
         let coordinates = file.coordinates.unwrap();
@@ -245,6 +248,8 @@ mod tests {
             ),
             ("\"gap\": 0.1", "\"state\": \"stick\"", "state"),
             ("[2, null, 1, 0]", "[7, null, 1, 0]", "coordinates"),
+            ("\"gap\"", "\"name\": \"toe\", \"gap\"", "one place"),
+            ("[\"heel\"]", "[\"heel\", \"toe\"]", "2 names"),
             (
                 "\"normal_direction\": -1",
                 "\"normal_direction\": 2",

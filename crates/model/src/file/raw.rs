@@ -80,7 +80,7 @@ pub(super) struct RawParticle {
     frame: Option<[[Number; 2]; 2]>,
     friction_factor: Option<Number>,
     reaction: Option<Object<RawReaction>>,
-    pub(super) name: Option<String>,
+    name: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -164,9 +164,7 @@ impl RawProblem {
             friction,
         }))
     }
-}
 
-impl RawProblem {
     /// Gives the particles the names that stand beside the coordinates.
     fn name_particles(&mut self) -> Result<(), ModelError> {
         if let (Some(Object(coordinates)), Some(Object(system))) =
@@ -244,7 +242,7 @@ impl RawCoordinates {
         Ok(self)
     }
 
-    /// The names that stand here, to the particles; an empty one is none.
+    /// Gives the names that stand here to the particles.
     ///
     /// # Errors
     /// [`ModelError::Coordinates`] for another number of names than of particles, and for a
@@ -271,7 +269,7 @@ impl RawCoordinates {
                     got: "one in the particle and one beside the coordinates".into(),
                 });
             }
-            *own = Some(name).filter(|name| !name.is_empty());
+            *own = Some(name);
         }
 
         Ok(())
@@ -369,7 +367,7 @@ impl RawParticle {
             frame,
             friction_factor,
             reaction,
-            name: self.name.filter(|name| !name.is_empty()),
+            name: self.name.filter(|name| !name.is_empty()), // an empty one is none
         })
     }
 }

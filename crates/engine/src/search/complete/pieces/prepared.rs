@@ -23,9 +23,9 @@ use mceip_exact::{Rational, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Problem, Window};
 
-/// Up to where an anchor that has no end of its own is used, in units of the pencil's scale: what
-/// lies above stays open. (A checker bounds a family that is not linear in t on finite intervals
-/// only.)
+/// Up to where an anchor that has no end of its own is used, in units of the pencil's scale plus
+/// the begin of the interval: what lies above stays open. (A checker bounds a family that is not
+/// linear in t on finite intervals only.)
 const FAR: f64 = 1024.0;
 
 /// Factor on the remainders where the checker has refused what doubles held for proved.
@@ -473,7 +473,7 @@ impl WindowDivision<'_> {
 
         // An infinite interval needs a family that is linear in t. One anchor stands for all t
         // where the free rows of B are zero in their own columns only: then there is no end.
-        // A window may begin beyond where the anchor is good: it is used there all the same.
+        // A window may begin above the end: the anchor is used there too, for want of another.
         let begin = to_f64(lo);
         let end = if end.is_finite() && end > begin {
             end
