@@ -14,7 +14,6 @@ use super::job::Job;
 use super::output::{Folder, Output};
 use super::pictures;
 use crate::front::require_mass;
-use crate::picture::path_picture;
 use crate::say::counted;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical};
 use mceip_engine::equilibrium::StatesNotCertified;
@@ -248,8 +247,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     // What cannot be written takes nothing else along.
     let states = folder.map_or(Ok(()), |folder| outcome.write_states(&folder));
     let picture = picture.map_or(Ok(()), |picture| {
-        let title = "Loading path: resultants, and the state of each contact candidate";
-        picture.write(&path_picture(title, path).to_svg())
+        picture.write(&pages::path_chart(&followed, &names).to_svg())
     });
 
     print(&if args.json {

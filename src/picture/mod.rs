@@ -36,7 +36,7 @@ pub use drawing::Picture;
 pub use marker::Mark;
 pub use markup::Element;
 pub use motion::{MotionSeries, motion_picture};
-pub use path::path_picture;
+pub use path::{PathDrawing, path_picture};
 #[cfg(feature = "png")]
 pub use png::PngError;
 pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};

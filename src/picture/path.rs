@@ -1,8 +1,8 @@
 //! The loading path: resultants against the motion, and the state of every node on every stretch.
 //!
-//! Above stands a chart of T, N and mu N against the load. Below it stands a table of the contact
-//! states with a column for each stretch and a row for each candidate. All columns have one width;
-//! grey lines tie each to its part of the load. Called by `mceip path`.
+//! Above stands a chart of T, N and mu N against the load, step by step. Below it stands a table of
+//! the contact states with a column for each stretch and a row for each candidate. All columns have
+//! one width; grey lines tie each to its part of the load. Called by `mceip path`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
@@ -11,6 +11,7 @@ use super::marker::Mark;
 use super::markup::Element;
 use super::scale::Spread;
 use mceip_exact::to_f64;
+use mceip_model::Particle;
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
 
 const WIDTH: f64 = 860.0;
@@ -31,10 +32,21 @@ const AREA: Rectangle = Rectangle {
 const LOAD: &str = "load: the amounts of the steps, one after the other";
 const RESULTANTS: &str = "resultants";
 
-/// Draws a path: above T, N and mu N against the load with a dot at each event; below a column for
-/// each stretch, tied to its part of the load, with the mark of each candidate. The load is counted
-/// from the beginning of the first stretch, step after step.
-pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
+/// A path with the names that stand in its picture.
+pub struct PathDrawing<'a> {
+    /// The path.
+    pub path: &'a LoadingPath,
+    /// The name of each step.
+    pub steps: &'a [&'a str],
+    /// The candidates; one without a name has its number from 1.
+    pub candidates: &'a [Particle],
+}
+
+/// Draws a path: above T, N and mu N against the load with a dot at each event and the name of each
+/// step; below a column for each stretch, tied to its part of the load, with the mark of each
+/// candidate. The load is counted from the beginning of the first stretch, step after step.
+pub fn path_picture(title: &str, drawing: &PathDrawing<'_>) -> Picture {
+    let path = drawing.path;
     let loads = LoadsBefore::of(path);
     let ends = ends(path, &loads);
     let table = StateTable::of(path);
@@ -43,9 +55,10 @@ pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
     picture.push_heading(LEFT, 24.0);
 
     let chart = push_resultants(&mut picture, path, &ends);
+    drawing.push_steps(&mut picture, &chart, &ends);
     table.push_ties(&mut picture, &chart, &ends);
     picture.push(table.marks(path));
-    table.push_labels(&mut picture);
+    table.push_labels(&mut picture, drawing.candidates);
 
     let states = path.stretches.iter().flat_map(|i| i.equilibrium_states());
     let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
@@ -200,12 +213,16 @@ impl ChartCurve {
 fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> Chart {
     let mu = to_f64(&path.steps.friction);
     let resultants = resultants(path, ends);
+    let mut lowest: f64 = 0.0;
     let mut highest: f64 = 0.0;
     for r in &resultants {
-        highest = highest.max(r.tangential.abs());
-        highest = highest.max(r.normal);
-        highest = highest.max(mu * r.normal);
+        for drawn in [r.tangential, r.normal, mu * r.normal] {
+            lowest = lowest.min(drawn);
+            highest = highest.max(drawn);
+        }
     }
+    // The names of the steps stand above the curves.
+    let margin = 0.08 * (highest - lowest);
 
     let x = Axis {
         label: LOAD,
@@ -216,7 +233,7 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
     let y = Axis {
         label: RESULTANTS,
         spread: Spread::Linear,
-        values: (0.0, 1.08 * highest),
+        values: (lowest, highest + margin),
         ticks: 7,
     };
     let chart = Chart::new(AREA, &x, &y);
@@ -240,6 +257,46 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
     chart
 }
 
+impl PathDrawing<'_> {
+    /// A line where each step begins, and its name at the top of its part of the chart, as much of
+    /// it as there is room for.
+    fn push_steps(&self, picture: &mut Picture, chart: &Chart, ends: &[f64]) {
+        let mut first = 0;
+        for stretches in self.path.stretches.chunk_by(|a, b| a.step == b.step) {
+            let begin = chart.x.place(ends[first]);
+            let end = chart.x.place(ends[first + stretches.len()]);
+            if first > 0 {
+                let between = line((begin, AREA.top), (begin, AREA.bottom), "#666", 0.8);
+                picture.push(dashed(between, "3 3"));
+            }
+
+            let name = self.steps[stretches[0].step];
+            if let Some(name) = shortened(name, end - begin - 8.0) {
+                let label = text(begin + 5.0, AREA.top + 14.0, "start", name);
+                picture.push(label.with("class", "step").with("font-size", "11"));
+            }
+            first += stretches.len();
+        }
+    }
+}
+
+/// Width of a letter at font size 11, rather too much.
+const LETTER: f64 = 6.5;
+
+/// As much of a name as there is room for; `None` where it is not even three letters.
+fn shortened(name: &str, room: f64) -> Option<String> {
+    let letters = (room / LETTER).max(0.0) as usize;
+    if name.chars().count() <= letters {
+        return Some(name.into());
+    }
+    if letters < 4 {
+        return None;
+    }
+
+    let kept: String = name.chars().take(letters - 1).collect();
+    Some(format!("{kept}\u{2026}"))
+}
+
 /// The key of the curve k, in a row above the chart.
 fn push_key(picture: &mut Picture, k: usize, curve: &ChartCurve) {
     let x = LEFT + 20.0 + 160.0 * k as f64;
@@ -259,6 +316,8 @@ struct StateTable {
 
 impl StateTable {
     const TOP: f64 = AREA.bottom + 100.0;
+    /// Right of the heading of the rows.
+    const HEADING: f64 = 30.0;
 
     fn of(path: &LoadingPath) -> StateTable {
         let rows = path
@@ -314,12 +373,16 @@ impl StateTable {
         marks
     }
 
-    /// Numbers of nodes at the left and of stretches below, as many as there is room for.
-    fn push_labels(&self, picture: &mut Picture) {
+    /// Names or numbers of candidates at the left and numbers of stretches below, as many as there
+    /// is room for.
+    fn push_labels(&self, picture: &mut Picture, candidates: &[Particle]) {
         for node in (0..self.rows).step_by(every(13.0, self.row_height)) {
             let y = StateTable::TOP + self.row_height * (node as f64 + 0.5) + 4.0;
-            let number = text(LEFT - 8.0, y, "end", (node + 1).to_string());
-            picture.push(number.with("font-size", "11"));
+            let name = candidates[node].name.as_deref();
+            let name = name.and_then(|name| shortened(name, LEFT - 8.0 - StateTable::HEADING));
+            let name = name.unwrap_or_else(|| (node + 1).to_string());
+            let label = text(LEFT - 8.0, y, "end", name);
+            picture.push(label.with("class", "candidate").with("font-size", "11"));
         }
 
         for column in (0..self.columns).step_by(every(20.0, self.column_width)) {
@@ -328,7 +391,7 @@ impl StateTable {
             picture.push(number.with("font-size", "11"));
         }
 
-        let x = LEFT - 44.0;
+        let x = StateTable::HEADING - 4.0;
         let y = StateTable::TOP + self.height() / 2.0;
         let turn = format!("rotate(-90 {x} {y})");
         let nodes = text(x, y, "middle", "node");
@@ -343,4 +406,25 @@ impl StateTable {
 /// Of labels that need `room` at places `distance` apart, every how many there is room for.
 fn every(room: f64, distance: f64) -> usize {
     (room / distance).ceil().max(1.0) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LETTER, shortened};
+
+    #[test]
+    fn a_name_is_shortened_to_its_room_or_left_out() {
+        let in_letters = |name, letters: f64| shortened(name, letters * LETTER);
+        assert_eq!(in_letters("push", 4.0).as_deref(), Some("push"));
+        assert_eq!(
+            in_letters("press down", 6.9).as_deref(),
+            Some("press\u{2026}")
+        );
+        assert_eq!(
+            in_letters("dr\u{fc}ckt", 4.0).as_deref(),
+            Some("dr\u{fc}\u{2026}")
+        );
+        assert_eq!(in_letters("press", 3.0), None);
+        assert_eq!(in_letters("press", -2.0), None);
+    }
 }

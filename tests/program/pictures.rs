@@ -9,13 +9,13 @@
 use crate::common::{exit_code, exits, exits_with_json, read, refused};
 use crate::program::Folder;
 use mceip::picture::{
-    BodyDrawing, BodyMode, Branches, ChartPoint, CostSeries, Mark, Picture, Presence,
+    BodyDrawing, BodyMode, Branches, ChartPoint, CostSeries, Mark, PathDrawing, Picture, Presence,
     PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
     cost_picture, path_picture, presence_picture, table1_picture, threshold_picture,
 };
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
-use mceip_model::{ContactState, Problem};
+use mceip_model::{ContactState, Particle, Problem};
 use mceip_paper::{Block, BlockModel, Loading};
 use mceip_path::LoadingPath;
 use mceip_testkit::system_of;
@@ -337,7 +337,15 @@ fn with_second_node_at(x: &str) -> Problem {
 #[test]
 fn the_path_is_drawn_as_it_is() {
     let path = path();
-    let text = sound(&path_picture("path", &path));
+    let count_of_candidates = path.stretches[0].states.len();
+    let mut candidates = vec![Particle::plain(0, 1, ContactState::Stick); count_of_candidates];
+    candidates[0].name = Some("trailing edge".into());
+    let drawing = PathDrawing {
+        path: &path,
+        steps: &["press", "push"],
+        candidates: &candidates,
+    };
+    let text = sound(&path_picture("path", &drawing));
     let tree = Document::parse(&text).unwrap();
 
     for mark in Mark::ALL {
@@ -369,6 +377,33 @@ fn the_path_is_drawn_as_it_is() {
     assert!(places.windows(2).all(|pair| pair[0] <= pair[1]));
     assert!(places[0] < places[places.len() - 1]);
     assert_eq!(count(&tree, "curve"), 3);
+
+    let steps = of_class(&tree, "step");
+    let steps: Vec<_> = steps.iter().filter_map(|step| step.text()).collect();
+    assert_eq!(steps, ["press", "push"]);
+    let rows = of_class(&tree, "candidate");
+    assert_eq!(rows.len(), count_of_candidates);
+    assert_eq!(rows[0].text(), Some("traili\u{2026}"));
+    assert_eq!(rows[1].text(), Some("2"));
+}
+
+#[test]
+fn resultants_below_zero_are_drawn_below_zero() {
+    let loads = mceip::Loads::read("spec/examples/loads.json").unwrap();
+    let followed = loads.path().run().unwrap().unwrap();
+    let drawing = PathDrawing {
+        path: followed.as_path(),
+        steps: &loads.step_names(),
+        candidates: loads.candidates(),
+    };
+    let text = sound(&path_picture("path", &drawing));
+    let tree = Document::parse(&text).unwrap();
+    let points = of_class(&tree, "point");
+
+    let tangential = data(&points, "data-y");
+    assert_eq!(tangential[..2], [0.0, -0.3]);
+    let heights = data(&points, "cy");
+    assert!(heights[1] > heights[0]);
 }
 
 /// The solutions of one stretch of the path. Where mu > 5 one slip node does not move.

@@ -13,8 +13,9 @@ use super::states::{
 use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
-    BodyDrawing, BodyMode, Branches, ChartPoint, Content, ReportPage, Section, Threshold,
-    ThresholdColumn, body_picture, branch_picture, path_picture, threshold_picture,
+    BodyDrawing, BodyMode, Branches, ChartPoint, Content, PathDrawing, Picture, ReportPage,
+    Section, Threshold, ThresholdColumn, body_picture, branch_picture, path_picture,
+    threshold_picture,
 };
 use crate::say::path::{LETTERS, amount_text, causes_text, continuations_text, of_which_body};
 use crate::say::stretches::stretch_cells;
@@ -116,6 +117,17 @@ fn static_points(thresholds: &ProvedSet) -> Vec<ChartPoint> {
     points
 }
 
+/// The picture of a path.
+pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Picture {
+    let drawing = PathDrawing {
+        path: followed.as_path(),
+        steps,
+        candidates: followed.loads().candidates(),
+    };
+    let title = "Loading path: resultants, and the state of each contact candidate";
+    path_picture(title, &drawing)
+}
+
 impl Shown<'_> {
     fn path(&self) -> &LoadingPath {
         self.followed.as_path()
@@ -142,10 +154,9 @@ impl Shown<'_> {
     }
 
     fn path_chart(&self) -> Named {
-        let title = "Loading path: resultants, and the state of each contact candidate";
         Named {
             name: "path".into(),
-            picture: path_picture(title, self.path()),
+            picture: path_chart(self.followed, self.names),
             caption: PATH_CAPTION.into(),
         }
     }
