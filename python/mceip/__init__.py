@@ -12,13 +12,13 @@
 
 Matrices are numpy arrays, anything of scipy.sparse, or lists of rows. A float stands for exactly
 the binary fraction that it is, a text for the number that it spells. Exact numbers of answers are
-`fractions.Fraction`.
+`fractions.Fraction`, vectors are numpy arrays.
 
 Every solution and every certificate that these functions return has been accepted by the checker;
 `check` runs it again, as anybody else would.
 """
 
-from ._native import MceipError, NotCertifiedError, RejectedError
+from ._native import MceipError, NotCertifiedError, RejectedError, __version__
 from .answers import (
     Absence,
     Accepted,
@@ -30,7 +30,6 @@ from .answers import (
     Evidence,
     Family,
     Found,
-    Interval,
     Mode,
     OpenRegion,
     Presence,
@@ -40,6 +39,7 @@ from .answers import (
     Uncertified,
 )
 from .drawing import Drawing, draw_mode
+from .exact import Interval
 from .inputs import Contact, Number
 from .loading import Body, Candidate, LoadPath, OwnCritical, Step, Stretch
 from .problem import ModelWarning, Problem, check
@@ -79,6 +79,7 @@ __all__ = [
     "Step",
     "Stretch",
     "Uncertified",
+    "__version__",
     "check",
     "draw_mode",
 ]

@@ -6,6 +6,8 @@ from .inputs import Contact, Triplets
 from .loading import PlainStep
 from .progress import Listener
 
+__version__: str
+
 class MceipError(ValueError):
     """What was given is no problem, or a question about it cannot be answered."""
 
@@ -44,8 +46,14 @@ class NativeProblem:
     def without_warnings(self) -> NativeProblem: ...
     def solve(self, starts: int, seed: int, all: bool, progress: Listener | None) -> str: ...
     def complete(
-        self, threads: int | None, earlier: str | None, progress: Listener | None
+        self,
+        threads: int | None,
+        earlier: str | None,
+        part: tuple[int, int] | None,
+        progress: Listener | None,
     ) -> str: ...
+    def merge(self, parts: Sequence[str]) -> str: ...
+    def kind(self) -> str: ...
     def analyze(
         self,
         friction: str | None,

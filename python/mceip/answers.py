@@ -1,26 +1,32 @@
 """Answers as dataclasses.
 
-Exact numbers are `fractions.Fraction`; floats are near what is proved. Indices count from 0. In a
-notebook the answers are tables.
+Exact numbers are `fractions.Fraction`, vectors numpy arrays; floats are near what is proved.
+Indices count from 0. In a notebook the answers are tables.
 """
 
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
 
 from ._native import NativeProblem
+from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text
 
-#: Lower and upper end; both belong to it.
-Interval = tuple[Fraction, Fraction]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
-#: Digits that are read at once.
-DIGITS = 4000
+#: How many numbers an interpreter shows of a list.
+MOST_LISTED = 6
+
+#: Components of a vector, in doubles.
+Vector = npt.NDArray[np.float64]
 
 #: A certificate as the JSON object that its file holds.
 Certificate = dict[str, Any]
@@ -51,16 +57,22 @@ class Solution:
     enclosure: Interval
     support: list[int]
     biactive: list[int]
-    x: list[float]
-    y: list[float]
-    v: list[float] | None
-    w: list[float] | None
+    x: Vector = field(compare=False)
+    y: Vector = field(compare=False)
+    v: Vector | None = field(compare=False)
+    w: Vector | None = field(compare=False)
 
     @property
     def exact_value(self) -> Fraction | None:
         """The value itself, where it is rational and known."""
         low, high = self.enclosure
         return low if low == high else None
+
+    def __repr__(self) -> str:
+        return two_lines(
+            f"Solution {self.unknown} {placed(self.enclosure)}",
+            f"x > 0 at {indices(self.support)}, x = y = 0 at {indices(self.biactive)}",
+        )
 
 
 @dataclass(frozen=True)
@@ -104,8 +116,11 @@ class Uncertified:
     """A point where the solver stopped, and why no proof was found. Nothing is known of it."""
 
     value: float
-    x: list[float]
+    x: Vector = field(compare=False)
     reason: str
+
+    def __repr__(self) -> str:
+        return two_lines(f"Uncertified {self.value:.10g}", self.reason)
 
 
 @dataclass(frozen=True)
@@ -124,6 +139,13 @@ class Found:
     uncertified: list[Uncertified]
     runs: int
     certificates: list[Certificate] = field(repr=False)
+
+    def __repr__(self) -> str:
+        points = counted(len(self.uncertified), "point")
+        return two_lines(
+            f"Found {counted(len(self.solutions), 'solution')}, certified: {values(self.solutions)}",
+            f"{points} without proof, {counted(self.runs, 'run')}; others are not excluded",
+        )
 
     def _repr_html_(self) -> str:
         return f"<p>{len(self.solutions)} found</p>" + table_of_solutions(self.solutions)
@@ -155,11 +177,20 @@ class SolutionSet:
         """Is it proved that the window holds no solution?"""
         return self.is_complete and not self.solutions and not self.families
 
-    def _repr_html_(self) -> str:
-        verdict = "complete" if self.is_complete else f"undecided: {len(self.open)} regions open"
+    @property
+    def _verdict(self) -> str:
+        regions = counted(len(self.open), "region")
+        verdict = "complete" if self.is_complete else f"undecided: {regions} open"
         if self.families:
-            verdict += f", {len(self.families)} families"
-        return f"<p>{verdict}</p>" + table_of_solutions(self.solutions)
+            verdict += f", {counted(len(self.families), 'continuum', 'continua')}"
+        return verdict
+
+    def __repr__(self) -> str:
+        count = counted(len(self.solutions), "solution")
+        return two_lines(f"SolutionSet {self._verdict}", f"{count}: {values(self.solutions)}")
+
+    def _repr_html_(self) -> str:
+        return f"<p>{self._verdict}</p>" + table_of_solutions(self.solutions)
 
 
 @dataclass(frozen=True)
@@ -199,6 +230,16 @@ class Accepted:
     def is_complete(self) -> bool:
         """Does the certificate prove that there are no other solutions?"""
         return self.solutions is not None and not self.open
+
+    def __repr__(self) -> str:
+        proved = self.claims if self.solutions is None else self.solutions
+        others = "there are no others" if self.is_complete else "others are not excluded"
+        regions = f"{counted(len(self.open), 'region')} open"
+        count = counted(len(proved), "solution")
+        return two_lines(
+            f"Accepted {count}: {listed([str(claim.enclosure) for claim in proved])}",
+            f"{counted(len(self.families), 'continuum', 'continua')}, {regions}; {others}",
+        )
 
 
 @dataclass(frozen=True)
@@ -293,7 +334,13 @@ class Mode:
     growth_rate: float
     slipping: list[int]
     sticking: list[int]
-    v: list[float]
+    v: Vector = field(compare=False)
+
+    def __repr__(self) -> str:
+        return two_lines(
+            f"Mode growing at {self.growth_rate:.6g} 1/s, lambda^2 {placed(self.lambda2)}",
+            f"contacts that slip: {indices(self.slipping)}; that do not: {indices(self.sticking)}",
+        )
 
 
 @dataclass(frozen=True)
@@ -325,7 +372,22 @@ class CriticalFriction:
         """Encloses the critical friction coefficient; None where no upper bound was found."""
         if self.absent_below is None or self.mu is None:
             return None
-        return self.absent_below, self.mu[1]
+        return Interval(self.absent_below, self.mu.upper)
+
+    @property
+    def _bounds_text(self) -> str:
+        if self.absent_below is None:
+            return "none: no divergence at any mu"
+        if self.bounds is None:
+            return f"not below {number_text(self.absent_below)}"
+        return placed(self.bounds)
+
+    def __repr__(self) -> str:
+        bases = [basis.kind for basis in (self.absent_evidence, self.evidence) if basis]
+        at = "" if self.lambda2 is None else f"lambda^2 there {placed(self.lambda2)}; "
+        return two_lines(
+            f"CriticalFriction {self._bounds_text}", f"{at}rests on: {', '.join(bases)}"
+        )
 
 
 @dataclass(frozen=True)
@@ -373,6 +435,22 @@ class Analysis:
     def __str__(self) -> str:
         return self.summary
 
+    def __repr__(self) -> str:
+        friction = number_text(fraction_of(self.answer["friction"]))
+        rates = listed([f"{mode.growth_rate:.6g} 1/s" for mode in self.modes])
+        growing = f", growing at {rates}" if self.modes else ""
+        return two_lines(
+            f"Analysis divergence at mu = {friction}: {self.verdict}{growing}",
+            f"critical friction {self.critical._bounds_text}",
+        )
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws along mu where divergence is present and where it is not, with the critical
+        friction, into axes of matplotlib; new ones if none are given."""
+        from .plotting import plot_ranges
+
+        return plot_ranges(self, ax)
+
     def _repr_html_(self) -> str:
         rows = []
         for sentence in self.answer["sentences"]:
@@ -384,34 +462,6 @@ class Analysis:
         return text + html_table(["", "", "rests on"], rows)
 
 
-def fraction_of(text: str) -> Fraction:
-    """A fraction or a decimal of any length."""
-    numerator, is_fraction, denominator = text.partition("/")
-    if is_fraction:
-        return Fraction(integer_of(numerator), integer_of(denominator))
-    return Fraction(text) if len(text) <= DIGITS else Fraction(integer_of(text))
-
-
-def integer_of(text: str) -> int:
-    """An integer of any length: Python itself reads 4300 digits at most."""
-    if len(text) <= DIGITS:
-        return int(text)
-    if text.startswith("-"):
-        return -integer_of(text[1:])
-    tail = len(text) // 2
-    shift: int = 10**tail
-    return integer_of(text[:-tail]) * shift + integer_of(text[-tail:])
-
-
-def interval_of(ends: Sequence[str]) -> Interval:
-    low, high = ends
-    return fraction_of(low), fraction_of(high)
-
-
-def upper_of(end: str | None) -> Fraction | None:
-    return None if end is None else fraction_of(end)
-
-
 def solution_of(answer: dict[str, Any]) -> Solution:
     return Solution(
         unknown=answer["unknown"],
@@ -419,10 +469,10 @@ def solution_of(answer: dict[str, Any]) -> Solution:
         enclosure=interval_of(answer["enclosure"]),
         support=answer["support"],
         biactive=answer["biactive"],
-        x=answer["x"],
-        y=answer["y"],
-        v=answer["v"],
-        w=answer["w"],
+        x=np.array(answer["x"]),
+        y=np.array(answer["y"]),
+        v=None if answer["v"] is None else np.array(answer["v"]),
+        w=None if answer["w"] is None else np.array(answer["w"]),
     )
 
 
@@ -440,7 +490,7 @@ def family_of(answer: dict[str, Any]) -> Family:
 def region_of(answer: dict[str, Any]) -> OpenRegion:
     return OpenRegion(
         min=fraction_of(answer["min"]),
-        max=upper_of(answer["max"]),
+        max=fraction_or_none(answer["max"]),
         moving=answer["moving"],
         undecided=answer["undecided"],
     )
@@ -452,7 +502,8 @@ def claim_of(answer: dict[str, Any]) -> Claim:
 
 def found_of(answer: dict[str, Any]) -> Found:
     uncertified = [
-        Uncertified(point["value"], point["x"], point["reason"]) for point in answer["uncertified"]
+        Uncertified(point["value"], np.array(point["x"]), point["reason"])
+        for point in answer["uncertified"]
     ]
     return Found(
         solutions=[solution_of(solution) for solution in answer["solutions"]],
@@ -501,7 +552,7 @@ def mode_of(answer: dict[str, Any]) -> Mode:
         growth_rate=answer["growth_rate"],
         slipping=answer["slipping"],
         sticking=answer["sticking"],
-        v=answer["v"],
+        v=np.array(answer["v"]),
     )
 
 
@@ -510,7 +561,7 @@ def critical_of(answer: dict[str, Any]) -> CriticalFriction:
     unbounded = answer["unbounded"]
     return CriticalFriction(
         without_friction=answer["without_friction"],
-        absent_below=upper_of(answer["absent_below"]),
+        absent_below=fraction_or_none(answer["absent_below"]),
         absent_evidence=evidence_of(answer["absent_evidence"]),
         mu=None if solution is None else interval_of(solution["mu"]),
         lambda2=None if solution is None else interval_of(solution["lambda2"]),
@@ -524,24 +575,44 @@ def evidence_of(answer: dict[str, Any]) -> Evidence:
     return Evidence(answer["kind"], source)
 
 
+def two_lines(first: str, second: str) -> str:
+    """What an interpreter shows of an answer."""
+    return f"<mceip.{first}\n {second}>"
+
+
+def counted(number: int, one: str, many: str | None = None) -> str:
+    """So many of something."""
+    return f"{number} {one if number == 1 else many or one + 's'}"
+
+
+def listed(texts: Sequence[str]) -> str:
+    """The first of some texts, and how many more there are."""
+    more = len(texts) - MOST_LISTED
+    tail = [f"{more} more"] if more > 0 else []
+    return ", ".join([*texts[:MOST_LISTED], *tail]) or "none"
+
+
+def indices(numbers: Sequence[int]) -> str:
+    return listed([str(number) for number in numbers])
+
+
+def values(solutions: Sequence[Solution]) -> str:
+    return listed([f"{solution.value:.10g}" for solution in solutions])
+
+
+def placed(interval: Interval) -> str:
+    """Where a number is known to lie."""
+    return f"= {interval}" if interval.lower == interval.upper else f"in {interval}"
+
+
 def table_of_solutions(solutions: Sequence[Solution]) -> str:
     """Values, with their enclosures, and who slips."""
     unknown = solutions[0].unknown if solutions else "value"
     rows = []
     for solution in solutions:
         support = ", ".join(str(index) for index in solution.support)
-        rows.append([f"{solution.value:.10g}", enclosure_text(solution.enclosure), support])
+        rows.append([f"{solution.value:.10g}", str(solution.enclosure), support])
     return html_table([unknown, "enclosure", "slip"], rows)
-
-
-def enclosure_text(enclosure: Interval) -> str:
-    """An interval in decimals that enclose it, or the number that it is."""
-    low, high = enclosure
-    if low == high:
-        return str(low)
-    below = math.nextafter(float(low), -math.inf)
-    above = math.nextafter(float(high), math.inf)
-    return f"[{below!r}, {above!r}]"
 
 
 def html_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -1,4 +1,4 @@
-"""A mode on its mesh, as SVG that a notebook shows."""
+"""A mode on its mesh, as SVG that a notebook shows, and in axes of matplotlib."""
 
 from __future__ import annotations
 
@@ -6,12 +6,16 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._native import MceipError
+from .answers import counted, two_lines
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Array = npt.NDArray[np.float64]
 
@@ -25,11 +29,33 @@ RADIUS = 6.0
 HEADING = 40.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Drawing:
-    """A picture; `svg` is the text of an SVG file."""
+    """A mesh at rest and displaced.
+
+    Attributes:
+        svg: the text of an SVG file.
+        rest: n x 2, the points at rest.
+        displaced: n x 2, the same points displaced, enlarged as in the picture.
+        edges: pairs of points.
+        contacts: points of the contacts.
+        slipping: places in `contacts` of those that slip.
+        title: of the picture.
+    """
 
     svg: str = field(repr=False)
+    rest: Array = field(repr=False)
+    displaced: Array = field(repr=False)
+    edges: list[tuple[int, int]] = field(repr=False)
+    contacts: list[int]
+    slipping: list[int]
+    title: str
+
+    def __repr__(self) -> str:
+        shown = f"Drawing {self.title!r} of {counted(len(self.rest), 'point')}"
+        return two_lines(
+            shown, f"{counted(len(self.contacts), 'contact')}, {len(self.slipping)} slipping"
+        )
 
     def _repr_svg_(self) -> str:
         return self.svg
@@ -38,6 +64,12 @@ class Drawing:
         """Writes the SVG file."""
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.svg)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """The same in axes of matplotlib; new ones if none are given."""
+        from .plotting import plot_drawing
+
+        return plot_drawing(self, ax)
 
 
 def draw_mode(
@@ -91,7 +123,8 @@ def draw_mode(
     origin = np.array([margin, height - margin])
     scale = np.array([unit, -unit])
     on_paper = origin + scale * (rest - lower)
-    displaced = origin + scale * (rest + factor * moved - lower)
+    enlarged = rest + factor * moved
+    displaced = origin + scale * (enlarged - lower)
 
     edges = edges_of(corners)
     marks = marks_of(displaced, contacts, set(slipping))
@@ -106,7 +139,7 @@ def draw_mode(
         f'<path d="{lines(displaced, edges)}" fill="none" stroke="#222" stroke-width="0.9"/>'
         f"{marks}</svg>\n"
     )
-    return Drawing(svg)
+    return Drawing(svg, rest, enlarged, edges, list(contacts), list(slipping), title)
 
 
 def coordinates(name: str, values: Any) -> Array:

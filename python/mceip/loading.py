@@ -10,16 +10,20 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._native import MceipError, NativeLoadPath, NativeLoads
-from .answers import Analysis
+from .answers import Analysis, counted, two_lines
+from .exact import Interval, fraction_of, fraction_or_none, number_text
 from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, triplets
 from .problem import Problem, warn_of
 from .progress import Progress, listening
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 #: One force for each degree of freedom, or forces by degree of freedom.
 Load = Union[Sequence[Number], npt.NDArray[Any], Mapping[int, Number]]
@@ -130,7 +134,7 @@ class Body:
             path = loads.path(in_doubles, listener)
         if path is None:
             raise MceipError("the path was interrupted")
-        return LoadPath(path)
+        return LoadPath(path, float(fraction_of(spelt(friction))))
 
 
 class LoadPath:
@@ -139,10 +143,12 @@ class LoadPath:
     Attributes:
         stretches: between two events, in order.
         end: why it ends.
+        friction: the coefficient mu, rounded.
     """
 
-    def __init__(self, native: NativeLoadPath) -> None:
+    def __init__(self, native: NativeLoadPath, friction: float) -> None:
         self._native = native
+        self.friction = friction
         stretches = json.loads(native.stretches())
         self.stretches = [Stretch(native, k, stretch) for k, stretch in enumerate(stretches)]
         self.end = native.end()
@@ -183,8 +189,37 @@ class LoadPath:
             )
         return OwnCritical(json.loads(found), text)
 
+    def resultants(self) -> npt.NDArray[np.float64]:
+        """A row (load, T, N) for the beginning of each stretch, and for the end of the last one if
+        it ends. T is the sum of the tangential reactions, N the force that presses; loads are added
+        up step after step."""
+        rows = []
+        load = 0.0
+        for stretch in self.stretches:
+            rows.append((load, *pressing(stretch.reactions)))
+            if stretch.stop is not None and stretch.stop_reactions is not None:
+                load += stretch.stop - stretch.start
+                last = (load, *pressing(stretch.stop_reactions))
+        if self.stretches and self.stretches[-1].stop is not None:
+            rows.append(last)
+        return np.array(rows).reshape(-1, 3)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws T, N and mu N against the load into axes of matplotlib; new ones if none are
+        given."""
+        from .plotting import plot_path
+
+        return plot_path(self, ax)
+
     def __repr__(self) -> str:
-        return f"<mceip.LoadPath {len(self.stretches)} stretches, {self.end}>"
+        count = counted(len(self.stretches), "stretch", "stretches")
+        return two_lines(f"LoadPath at mu = {self.friction:g}, {count}", self.end)
+
+
+def pressing(reactions: npt.NDArray[np.float64]) -> tuple[float, float]:
+    """The sums T of r_T and N of -r_N."""
+    tangential, normal = reactions.sum(axis=0)
+    return float(tangential), 0.0 - float(normal)
 
 
 class OwnCritical:
@@ -201,8 +236,8 @@ class OwnCritical:
     def __init__(self, found: Mapping[str, Any], text: str) -> None:
         bracket: Mapping[str, str | None] = found["bracket"] or {}
         self.found: str = found["found"]
-        self.absent: Fraction | None = exact(bracket.get("absent"))
-        self.critical: Fraction | None = exact(bracket.get("critical"))
+        self.absent: Fraction | None = fraction_or_none(bracket.get("absent"))
+        self.critical: Fraction | None = fraction_or_none(bracket.get("critical"))
         self.points: list[dict[str, Any]] = found["points"]
         self.frozen: dict[str, Any] | None = found["frozen"]
         self._text = text
@@ -210,14 +245,28 @@ class OwnCritical:
     def __str__(self) -> str:
         return self._text
 
+    @property
+    def bounds(self) -> Interval | None:
+        """From `absent` to `critical`; None where one of them is missing."""
+        if self.absent is None or self.critical is None:
+            return None
+        return Interval(self.absent, self.critical)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the answer at each mu examined into axes of matplotlib; new ones if none are
+        given."""
+        from .plotting import plot_own_critical
+
+        return plot_own_critical(self, ax)
+
     def __repr__(self) -> str:
-        ends = f"{self.absent} to {self.critical}"
-        return f"<mceip.OwnCritical {self.found} {ends}, {len(self.points)} mu examined>"
-
-
-def exact(text: str | None) -> Fraction | None:
-    """The number that is spelt, if one is."""
-    return None if text is None else Fraction(text)
+        lower, upper = (
+            "none" if end is None else number_text(end) for end in (self.absent, self.critical)
+        )
+        return two_lines(
+            f"OwnCritical {self.found}, absent at {lower}, critical at {upper}",
+            f"{len(self.points)} mu examined",
+        )
 
 
 class Stretch:
@@ -230,6 +279,7 @@ class Stretch:
         states: of the equilibria inside, one for each candidate: "free", "stick", "slip+" and
             "slip-" (impending slip along the tangent and against it, as in `Contact`), "zero".
         reactions: (r_T, r_N) of each candidate at the beginning.
+        stop_reactions: the same at the end; None where the stretch never ends.
         continuations: the ways in which the path can go on at the beginning, each as the states of
             its candidates; None where there is one whatever load grows, or where not all were
             tried.
@@ -244,6 +294,9 @@ class Stretch:
         self.stop: float | None = stretch["to"]
         self.states: npt.NDArray[np.str_] = np.array(stretch["equilibrium_states"])
         self.reactions: npt.NDArray[np.float64] = np.array(stretch["start"]["reactions_T_N"])
+        self.stop_reactions: npt.NDArray[np.float64] | None = None
+        if stretch["stop"] is not None:
+            self.stop_reactions = np.array(stretch["stop"]["reactions_T_N"])
         ways = stretch["continuations"] or {}
         self.continuations: list[list[str]] | None = ways.get("states")
         self.is_only_one: bool | None = None
@@ -271,9 +324,9 @@ class Stretch:
         return self._native.certify(self._number)
 
     def __repr__(self) -> str:
-        stop = "" if self.stop is None else f"{self.stop:.6g}"
-        states = " ".join(self.states.tolist())
-        return f"<mceip.Stretch {self.step} {self.start:.6g} to {stop}: {states}>"
+        stop = "without end" if self.stop is None else f"to {self.stop:.6g}"
+        first = f"Stretch of {self.step} from {self.start:.6g} {stop}"
+        return two_lines(first, " ".join(self.states.tolist()))
 
 
 def contact_of(place: int, candidate: Candidate) -> Contact:

@@ -6,6 +6,7 @@ import json
 import os
 import warnings
 from collections.abc import Sequence
+from concurrent.futures import Executor, as_completed
 from typing import Any
 
 from ._native import MceipError, NativeProblem
@@ -21,12 +22,16 @@ from .answers import (
     certified_of,
     found_of,
     solution_set_of,
+    two_lines,
 )
 from .inputs import Contacts, Number, contacts_or_table, count, spelt, triplets
 from .progress import Progress, listening
 
 #: Threads at most: each is one of the operating system.
 MOST_THREADS = 1024
+
+#: Parts of a search at most.
+MOST_PARTS = 10_000
 
 
 class ModelWarning(UserWarning):
@@ -177,19 +182,59 @@ class Problem:
         *,
         threads: int | None = None,
         resume: Certificate | None = None,
+        executor: Executor | None = None,
+        parts: int = 16,
         progress: Progress = None,
     ) -> SolutionSet:
         """All solutions in the window, with a proof that there are no others.
 
+        With an executor of `concurrent.futures` (of processes, or what Dask and mpi4py give) the
+        search is cut into parts, each a task; `merge` joins their certificates. The certificate is
+        the same for any number of workers.
+
         Args:
-            threads: all cores if not said; the certificate does not depend on it.
+            threads: all cores if not said, with an executor one for each part; the certificate does
+                not depend on it.
             resume: a certificate that leaves regions open; only these are searched.
-            progress: see the class.
+            executor: searches the parts; none: this process does.
+            parts: how many, with an executor.
+            progress: see the class; with an executor the steps are parts.
         """
+        if executor is not None:
+            if resume is not None:
+                raise MceipError("resume: expected None with an executor, got a certificate")
+            return self._complete_by(executor, count("parts", parts, 1, MOST_PARTS), threads, progress)
         earlier = None if resume is None else text_of(resume)
         with listening(progress) as listener:
-            answer = self._native.complete(thread_count(threads), earlier, listener)
+            answer = self._native.complete(thread_count(threads), earlier, None, listener)
         return solution_set_of(json.loads(answer))
+
+    def _complete_by(
+        self, executor: Executor, parts: int, threads: int | None, progress: Progress
+    ) -> SolutionSet:
+        each = thread_count(1 if threads is None else threads)
+        text = self.to_json()
+        certificates = [""] * parts
+        with listening(progress) as listener:
+            places = {executor.submit(part_of, text, k, parts, each): k for k in range(parts)}
+            try:
+                for done, future in enumerate(as_completed(places), start=1):
+                    certificates[places[future]] = future.result()
+                    if listener is not None:
+                        listener(f"{done} of {parts} parts searched", done, parts)
+            except BaseException:
+                for future in places:
+                    future.cancel()
+                raise
+        return self.merge(certificates)
+
+    def merge(self, certificates: Sequence[Certificate | str]) -> SolutionSet:
+        """What the certificates of the parts of one search prove together.
+
+        Raises `MceipError` where a part is missing or belongs to another search.
+        """
+        parts = [text_of(certificate) for certificate in certificates]
+        return solution_set_of(json.loads(self._native.merge(parts)))
 
     def analyze(
         self,
@@ -234,7 +279,16 @@ class Problem:
         return Problem.from_json, (self.to_json(),)
 
     def __repr__(self) -> str:
-        return f"<mceip.Problem {self.unknown} {self.sha256[:12]}>"
+        return two_lines(
+            f"Problem of {self._native.kind()}; sought: {self.unknown}", f"sha256 {self.sha256}"
+        )
+
+
+def part_of(problem: str, index: int, parts: int, threads: int | None) -> str:
+    """The certificate of one part of a search, as text: what a worker of an executor does."""
+    native = NativeProblem.from_json(problem)
+    found = json.loads(native.complete(threads, None, (index, parts), None))
+    return json.dumps(found["certificate"])
 
 
 def check(problem: Problem, certificate: Certificate | str) -> Accepted:

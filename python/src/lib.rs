@@ -149,6 +149,18 @@ impl NativeProblem {
         self.0.unknown().word()
     }
 
+    /// What is given, and how large it is.
+    fn kind(&self) -> String {
+        match self.0.as_model().body() {
+            Body::System(system) => format!(
+                "a system, degrees of freedom: {}, contacts: {}",
+                system.dofs(),
+                system.particles().len()
+            ),
+            Body::Pencil(pencil) => format!("a pencil of order {}", pencil.order()),
+        }
+    }
+
     /// What looked wrong when the problem was made.
     fn warnings(&self) -> Vec<String> {
         self.0.warnings().to_vec()
@@ -180,12 +192,14 @@ impl NativeProblem {
         Ok(answers::found(&found).to_string())
     }
 
-    /// All solutions in the window.
+    /// All solutions in the window; with `part` = (k, n) those in part k of n, counted from 0, and
+    /// the others open.
     fn complete(
         &self,
         py: Python<'_>,
         threads: Option<usize>,
         earlier: Option<&str>,
+        part: Option<(usize, usize)>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
         let earlier = earlier.map(certificate).transpose()?;
@@ -198,11 +212,22 @@ impl NativeProblem {
             if let Some(earlier) = &earlier {
                 search = search.resume(earlier);
             }
+            if let Some((index, count)) = part {
+                search = search.part(index, count);
+            }
             search.cancel(cancel).on_progress(hear).run()
         })?;
 
         let all = all.map_err(refused)?;
         Ok(answers::solution_set(&all).to_string())
+    }
+
+    /// What the certificates of the parts of one search prove together.
+    fn merge(&self, py: Python<'_>, parts: Vec<String>) -> PyResult<String> {
+        let parts = parts.iter().map(|part| certificate(part));
+        let parts = parts.collect::<PyResult<Vec<_>>>()?;
+        let merged = py.detach(|| self.0.merge(&parts)).map_err(refused)?;
+        Ok(answers::solution_set(&merged).to_string())
     }
 
     /// The engineer's answer.
@@ -333,6 +358,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<NativeProblem>()?;
     module.add_class::<loads::NativeLoads>()?;
     module.add_class::<loads::NativeLoadPath>()?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("MceipError", py.get_type::<MceipError>())?;
     module.add("RejectedError", py.get_type::<RejectedError>())?;
     module.add("NotCertifiedError", py.get_type::<NotCertifiedError>())

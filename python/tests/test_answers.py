@@ -135,9 +135,12 @@ def test_the_analysis_encloses_the_critical_friction_and_hands_over_its_proofs(e
 
     assert analysis.verdict == "present"
     assert str(analysis) == analysis.summary
-    lower, upper = analysis.critical_friction
+    bounds = analysis.critical_friction
+    lower, upper = bounds
+    assert (bounds.lower, bounds.upper) == (lower, upper)
     assert lower <= Fraction(4, 3) <= upper
     assert upper - lower < Fraction(1, 10**5)
+    assert str(bounds) == "[1.333333333333, 1.333333333334]"
 
     critical = analysis.critical
     names = {proof.name for proof in analysis.proofs}

@@ -87,7 +87,8 @@ def test_the_own_critical_friction_is_that_of_the_book():
     assert (own.found, own.absent, own.critical) == ("between", Fraction("1.78"), Fraction("1.79"))
     assert [point["states_certified"] for point in own.points] == [True] * len(own.points)
     assert str(own).startswith("OWN CRITICAL FRICTION: between 1.78 and 1.79")
-    assert "between 89/50 to 179/100" in repr(own)
+    assert "between, absent at 1.78, critical at 1.79" in repr(own)
+    assert own.bounds == (Fraction("1.78"), Fraction("1.79"))
     for ends, options, word in [
         ((2, 1), {}, "0 < MIN < MAX"),
         ((1, 2), {"parts": 0}, "parts"),

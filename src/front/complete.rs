@@ -209,8 +209,9 @@ impl<'a> Complete<'a> {
     }
 
     /// Searches part `index` of `count` of the pieces, counted from 0, and leaves the others open;
-    /// [`Problem::merge`] joins the parts.
+    /// [`Problem::merge`] joins the parts. There are as many pieces as parts at least.
     pub fn part(mut self, index: usize, count: usize) -> Self {
+        self.options.pieces = self.options.pieces.max(count);
         self.options.shard = Some(Shard { index, count });
         self
     }
