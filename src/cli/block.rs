@@ -158,10 +158,10 @@ pub(super) fn text_of(reports: &[BlockReport]) -> String {
         }
 
         for solution in &report.accepted {
-            let stuck = if solution.stuck.is_empty() {
-                "none".into()
-            } else {
-                format!("node {:?} from the left", solution.stuck)
+            let stuck: Vec<String> = solution.stuck.iter().map(usize::to_string).collect();
+            let stuck = match stuck.as_slice() {
+                [] => "none".into(),
+                nodes => format!("node {} from the left", nodes.join(", ")),
             };
 
             table.row(vec![

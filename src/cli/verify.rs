@@ -27,6 +27,9 @@ pub(super) struct Args {
     /// proofs/mceip-verified in this folder or above it.
     #[arg(long, value_name = "PATH")]
     verified: Option<Option<PathBuf>>,
+    /// List the points without certificate, too, and the corner cases that were reached.
+    #[arg(long)]
+    verbose: bool,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -51,7 +54,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let text = if args.json {
         format!("{}\n", json_of(&outcome, counts.as_ref()))
     } else {
-        text_of(&outcome, counts.as_ref())
+        text_of(&outcome, counts.as_ref(), args.verbose)
     };
     print(&text)?;
 
@@ -67,8 +70,37 @@ fn exit_code(v: &Verification) -> u8 {
     }
 }
 
-/// `counts`: verdicts of the verified checker, if it was asked.
-fn text_of(v: &Verification, counts: Option<&VerifiedCounts>) -> String {
+/// Lists, if they are asked for, then tables, and the verdict last. `counts`: verdicts of the
+/// verified checker, if it was asked.
+fn text_of(v: &Verification, counts: Option<&VerifiedCounts>, is_verbose: bool) -> String {
+    let mut out = String::new();
+    if is_verbose {
+        for family in &v.families {
+            out += &details_of(family);
+        }
+        out += "\n";
+    }
+
+    out += &format!("{}\n", families_table(&v.families));
+    out += &format!("{}\n", coverage_text(&v.covered(), &v.shortfalls()));
+    out += &super::block::text_of(&v.block);
+    for state in &v.block {
+        out += &block_text(state);
+    }
+    if let Some(counts) = counts {
+        out += &format!("\n{}", verified_text(counts));
+    }
+
+    out += "\n";
+    for family in &v.families {
+        for disagreement in &family.disagreements {
+            out += &format!("DISAGREEMENT: {}: {disagreement}\n", family.name);
+        }
+    }
+    out + &format!("{}\n", verdict(v))
+}
+
+fn families_table(families: &[FamilyReport]) -> Table {
     let header = [
         "family",
         "instances",
@@ -82,27 +114,11 @@ fn text_of(v: &Verification, counts: Option<&VerifiedCounts>) -> String {
         "disagreements",
     ];
     let mut table = Table::new(&header);
-    for family in &v.families {
+    for family in families {
         table.row(row(family));
     }
 
-    let mut out = format!(
-        "{table}\n{}\n",
-        coverage_text(&v.covered(), &v.shortfalls())
-    );
-    for family in &v.families {
-        out += &family_text(family);
-    }
-
-    out += &format!("\n{}", super::block::text_of(&v.block));
-    for state in &v.block {
-        out += &block_text(state);
-    }
-
-    if let Some(counts) = counts {
-        out += &format!("\n{}", verified_text(counts));
-    }
-    out + &format!("\n{}\n", verdict(v))
+    table
 }
 
 /// Verdicts of the verified checker: by kind of evidence, then what it has no theorem for.
@@ -154,18 +170,20 @@ fn row(family: &FamilyReport) -> Vec<String> {
     ]
 }
 
-/// What the table has no room for.
-fn family_text(family: &FamilyReport) -> String {
+/// What the table has no room for: corner cases, and points that stayed without certificate.
+fn details_of(family: &FamilyReport) -> String {
+    let corners = family.corners.iter();
+    let corners: Vec<String> = corners
+        .map(|(corner, count)| format!("{} {count}", corner.word()))
+        .collect();
     let mut out = format!(
-        "{}: corners reached {:?}, {} pivots\n",
-        family.name, family.corners, family.pivots
+        "{}: {}; {} pivots\n",
+        family.name,
+        corners.join(", "),
+        family.pivots
     );
     for point in &family.uncertified {
         out += &format!("  uncertified: {point}\n");
-    }
-
-    for disagreement in &family.disagreements {
-        out += &format!("  DISAGREEMENT: {disagreement}\n");
     }
 
     out
@@ -329,6 +347,7 @@ pub(super) fn covered_json(covered: &Covered) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mceip_testkit::Corner;
     use mceip_testkit::floors::{Coverage, Starts};
     use mceip_testkit::verified::KindCounts;
 
@@ -358,11 +377,11 @@ mod tests {
     fn a_rate_below_its_floor_is_exit_1_and_named() {
         let good = run_with_coverage(100, 100);
         assert_eq!(exit_code(&good), exit::DONE);
-        assert!(text_of(&good, None).contains("VERIFIED"));
+        assert!(text_of(&good, None, false).contains("VERIFIED"));
 
         let misses_half = run_with_coverage(100, 50);
         assert_eq!(exit_code(&misses_half), exit::REJECTED);
-        let text = text_of(&misses_half, None);
+        let text = text_of(&misses_half, None, false);
         let shortfall =
             "DISAGREEMENT: coverage: random pencils, search: all solutions found in 50 of 100";
         assert!(text.contains(shortfall), "{text}");
@@ -399,12 +418,12 @@ mod tests {
     #[test]
     fn verdicts_of_the_verified_checker_are_printed_by_kind() {
         let run = run_with_coverage(100, 100);
-        let without = text_of(&run, None);
+        let without = text_of(&run, None, false);
         assert!(!without.contains("verified checker"), "{without}");
         assert!(json_of(&run, None)["verified"].is_null());
 
         let counts = three_verdicts();
-        let text = text_of(&run, Some(&counts));
+        let text = text_of(&run, Some(&counts), false);
         let last = "1 of 3 certificates accepted, 1 not verified, 1 refused";
         assert!(text.contains(last), "{text}");
         assert!(text.contains("not verified: support: 1"), "{text}");
@@ -421,5 +440,31 @@ mod tests {
             .disagreements
             .push("random pencils 3: the verified checker".into());
         assert_eq!(exit_code(&run), exit::REJECTED);
+        let text = text_of(&run, None, false);
+        assert!(
+            text.contains("\nDISAGREEMENT: random pencils: random pencils 3"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn points_without_certificate_and_corner_cases_are_listed_where_it_is_asked_for() {
+        let mut run = run_with_coverage(100, 100);
+        run.families[0]
+            .uncertified
+            .push("random pencils 5: no root".into());
+        run.families[0].corners.insert(Corner::WideKernel, 3);
+
+        let short = text_of(&run, None, false);
+        assert!(
+            !short.contains("no root") && !short.contains("kernel"),
+            "{short}"
+        );
+
+        let long = text_of(&run, None, true);
+        let listed = "random pencils: kernel of several dimensions 3; 0 pivots\n  uncertified: \
+                      random pencils 5: no root\n";
+        assert!(long.starts_with(listed), "{long}");
+        assert!(long.ends_with(&short), "{long}");
     }
 }

@@ -82,6 +82,31 @@ impl Corner {
         Corner::PointWindow,
         Corner::Empty,
     ];
+
+    /// In words, for people.
+    pub fn word(self) -> &'static str {
+        match self {
+            Corner::Biactive => "biactive",
+            Corner::Repeated => "repeated eigenvalue",
+            Corner::ZeroValue => "value 0",
+            Corner::WideKernel => "kernel of several dimensions",
+            Corner::Singular => "singular support",
+            Corner::Threshold => "on a threshold of Table 1",
+            Corner::OneByOne => "one variable",
+            Corner::FreeVariables => "free variables",
+            Corner::Oblique => "oblique particle",
+            Corner::Stick => "stick particle",
+            Corner::CoupledMass => "mass that couples T and N",
+            Corner::NearThreshold => "near a threshold",
+            Corner::IllConditioned => "ill-conditioned",
+            Corner::HugeScale => "huge entries",
+            Corner::TinyScale => "tiny entries",
+            Corner::Planted => "planted solution",
+            Corner::FiniteWindow => "finite window",
+            Corner::PointWindow => "window of one value",
+            Corner::Empty => "no solution",
+        }
+    }
 }
 
 /// A problem of a family, with the closed form where there is one.
