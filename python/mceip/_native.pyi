@@ -90,5 +90,10 @@ class NativeLoadPath:
     def problem(self, stretch: int) -> NativeProblem | None: ...
     def certify(self, stretch: int) -> str: ...
     def own_critical(
-        self, range: tuple[str, str], parts: int, width: str, progress: Listener | None
+        self,
+        range: tuple[str, str],
+        parts: int,
+        width: str,
+        end_alone: bool,
+        progress: Listener | None,
     ) -> tuple[str, str]: ...

@@ -168,24 +168,27 @@ class LoadPath:
         *,
         parts: int = 10,
         width: Number = "0.01",
+        end_alone: bool = False,
         progress: Progress = None,
     ) -> OwnCritical:
-        """From which friction on do these loads lead to an equilibrium that can diverge?
+        """From which friction on does the path meet an equilibrium that can diverge?
 
-        At each mu of a grid the path is followed at this mu, and the equilibrium at its end is
-        examined; between neighbours with different answers more mu are.
+        At each mu of a grid the path is followed at this mu, and the equilibria on it are examined,
+        one in each stretch and the one at its end; between neighbours with different answers more
+        mu are.
 
         Args:
             least: the smallest mu.
             greatest: the largest mu.
             parts: parts of the grid.
             width: how near neighbours with different answers are brought, relative to mu.
+            end_alone: examines the equilibrium at the end of the loads alone, for large bodies.
             progress: as in `Problem`.
         """
         ends = (spelt(least), spelt(greatest))
         with listening(progress) as listener:
             found, text = self._native.own_critical(
-                ends, count("parts", parts, 1), spelt(width), listener
+                ends, count("parts", parts, 1), spelt(width), bool(end_alone), listener
             )
         return OwnCritical(json.loads(found), text)
 
@@ -227,10 +230,12 @@ class OwnCritical:
 
     Attributes:
         found: "between", "at_most" (none below is decided), "none" or "undecided".
-        absent: the mu before the critical one at which divergence is proved absent, if there is one.
-        critical: the first mu at which divergence is proved, or the path ends.
+        absent: the mu before the critical one at which divergence is proved absent on the path, if
+            there is one.
+        critical: the first mu at which divergence on it is proved, or the path ends.
         points: what is found at each mu, as in `mceip path --own-critical --json`.
-        frozen: the critical friction of the contact states at `absent`, held; see `points`.
+        frozen: the critical friction of one state, held: of the one that diverges at `critical`,
+            else of the end of the path at the last mu without divergence; see `points`.
     """
 
     def __init__(self, found: Mapping[str, Any], text: str) -> None:

@@ -159,6 +159,7 @@ impl NativeLoadPath {
         range: (String, String),
         parts: usize,
         width: &str,
+        end_alone: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(String, String)> {
         let [least, greatest] = [&range.0, &range.1].map(|end| number("own_critical", end));
@@ -168,7 +169,7 @@ impl NativeLoadPath {
         let grid = grid.and_then(|grid| grid.with_width(width)).map_err(told)?;
 
         let own = watched(py, progress.as_ref(), |cancel, hear| {
-            let question = self.0.own_critical(grid);
+            let question = self.0.own_critical(grid).end_alone(end_alone);
             question.cancel(cancel).on_progress(hear).run()
         })?;
         let own = own.map_err(refused)?;

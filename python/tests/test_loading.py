@@ -82,13 +82,17 @@ def test_the_own_critical_friction_is_that_of_the_book():
     steps = [mceip.Step(step["name"], forces=dict(step["forces"])) for step in given["steps"]]
     path = body.path(steps, str(system["friction"]))
 
-    own = path.own_critical("1.7", "1.8", parts=2)
+    own = path.own_critical("1.1", "1.2", parts=2)
 
-    assert (own.found, own.absent, own.critical) == ("between", Fraction("1.78"), Fraction("1.79"))
+    assert (own.found, own.absent, own.critical) == ("between", Fraction("1.11"), Fraction("1.12"))
     assert [point["states_certified"] for point in own.points] == [True] * len(own.points)
-    assert str(own).startswith("OWN CRITICAL FRICTION: between 1.78 and 1.79")
-    assert "between, absent at 1.78, critical at 1.79" in repr(own)
-    assert own.bounds == (Fraction("1.78"), Fraction("1.79"))
+    assert str(own).startswith("OWN CRITICAL FRICTION: between 1.11 and 1.12")
+    assert "between, absent at 1.11, critical at 1.12" in repr(own)
+    assert own.bounds == (Fraction("1.11"), Fraction("1.12"))
+    assert own.points[-1]["stretch"] == 3
+
+    at_the_end = path.own_critical("1.7", "1.8", parts=2, end_alone=True)
+    assert at_the_end.bounds == (Fraction("1.78"), Fraction("1.79"))
     for ends, options, word in [
         ((2, 1), {}, "0 < MIN < MAX"),
         ((1, 2), {"parts": 0}, "parts"),

@@ -366,8 +366,8 @@ impl Folder {
         }
     }
 
-    /// Removes the files `stem-NUMBER.json`, and of a proof both, but for these numbers: those of
-    /// an earlier run.
+    /// Removes the files `stem-NUMBER.json`, and of a proof both with its equilibrium, but for these
+    /// numbers: those of an earlier run.
     pub(super) fn keep_numbered(&self, stem: &str, kept: &[usize]) -> Result<(), CliError> {
         let failed = |error: &std::io::Error| CliError::write(self.path.display(), error);
         for entry in std::fs::read_dir(&self.path).map_err(|e| failed(&e))? {
@@ -377,10 +377,8 @@ impl Folder {
             let numbered = name.strip_prefix(stem).and_then(|n| n.strip_prefix('-'));
             let number = numbered.and_then(|n| n.strip_suffix(".json"));
             let number = number.map(|n| {
-                let of_proof = n
-                    .strip_suffix(".problem")
-                    .or(n.strip_suffix(".certificate"));
-                of_proof.unwrap_or(n)
+                let mut kinds = [".problem", ".certificate", ".equilibrium"].iter();
+                kinds.find_map(|kind| n.strip_suffix(kind)).unwrap_or(n)
             });
             let number = number.and_then(|n| n.parse::<usize>().ok());
             let is_input = |input: &PathBuf| is_file_at(input, &entry.path());

@@ -82,8 +82,8 @@ pub(super) struct Args {
     /// With --complete --json: the mode of each solution over all degrees of freedom.
     #[arg(long, requires = "examined")]
     modes: bool,
-    /// The own critical friction: at mu between these the path at this mu, and whether the
-    /// equilibrium at its end can diverge; at a grid, and between neighbours that differ.
+    /// The own critical friction: at mu between these the path at this mu, and whether an
+    /// equilibrium on it can diverge; at a grid, and between neighbours that differ.
     #[arg(
         long,
         value_name = "MIN,MAX",
@@ -91,6 +91,10 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     own_critical: Vec<String>,
+    /// With --own-critical: ask the equilibrium at the end of the loads alone, for large bodies;
+    /// what the path meets before is not examined.
+    #[arg(long, requires = "own_critical")]
+    end_alone: bool,
     /// With --own-critical: parts of the grid from MIN to MAX.
     #[arg(
         long,
@@ -111,8 +115,8 @@ pub(super) struct Args {
     /// Certify the contact states at one amount inside each stretch, into this folder, as
     /// `equilibrium-NUMBER.json` for `mceip check FILE`, and where T(mu) is positive definite in
     /// them that the rates are the only ones, as `unique-NUMBER.certificate.json` with its problem;
-    /// files of these names from an earlier path are removed. With --own-critical those at the end
-    /// of each path, and problem and certificate of what is said of divergence.
+    /// files of these names from an earlier path are removed. With --own-critical those that decide
+    /// on each path, and problems and certificates of what is said of divergence.
     #[arg(long, value_name = "FOLDER")]
     certificates: Option<PathBuf>,
     /// With --own-critical --certificates: go on from the proofs about divergence that an earlier
@@ -289,12 +293,13 @@ fn own_critical(
     job: &Job,
 ) -> Result<OwnCritical, CliError> {
     let mut question = followed.own_critical(grid).cancel(job.cancel());
+    question = question.end_alone(args.end_alone);
     question = question.on_progress(|progress| job.say(progress));
     if let Some(folder) = folder {
         question = question.on_point(|point| own::keep_point(folder, point));
     }
     if let Some(folder) = folder.filter(|_| args.resume) {
-        question = question.resume(|mu| own::earlier(folder, mu));
+        question = question.resume(|mu, place| own::earlier(folder, mu, place));
     }
 
     let found = question.run()?;

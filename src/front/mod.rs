@@ -40,8 +40,8 @@ pub use matrix::Matrix;
 pub(crate) use own_critical::require_mass;
 #[cfg(feature = "solver")]
 pub use own_critical::{
-    Bracket, EndState, FindOwnCritical, FrictionAnswer, FrictionGrid, FrictionGridError,
-    FrictionPoint, OwnCritical,
+    Bracket, ExaminedEquilibrium, FindOwnCritical, FrictionAnswer, FrictionGrid, FrictionGridError,
+    FrictionPoint, OwnCritical, PathPlace,
 };
 pub use problem::{Problem, check};
 #[cfg(feature = "solver")]

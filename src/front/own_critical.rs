@@ -1,18 +1,19 @@
 //! The own critical friction of a body under loads.
 //!
 //! The critical friction of a state is *frozen*: the contact states of one equilibrium are held,
-//! and mu varies. But at another mu the same loads may lead to another equilibrium. Here, for each
-//! mu of a grid, the loading path is followed at this mu, and the equilibrium it ends in is asked
-//! whether it can diverge in the form (8). Between neighbours with different answers more mu are
-//! examined until they are as near as asked for.
+//! and mu varies. But at another mu the same loads may lead to other equilibria. Here, for each mu
+//! of a grid, the loading path is followed at this mu, and the equilibria on it are asked whether
+//! they can diverge in the form (8): one inside each stretch, up to the first that can, and the one
+//! in which the path ends. Between neighbours with different answers more mu are examined until
+//! they are as near as asked for.
 //!
-//! The *critical friction found* is the first change among the mu examined from proved absence to
-//! proved divergence, or to a path that ends although every set of contact states was tried. The
-//! path is the one that `mceip_path` follows, exact but without a certificate; that it is the only
-//! one is not claimed, and between two mu nothing is.
+//! The *critical friction found* is the first change among the mu examined from proved absence on
+//! the whole path to proved divergence somewhere on it, or to a path that ends although every set
+//! of contact states was tried. The path is the one that `mceip_path` follows, exact but without a
+//! certificate; that it is the only one is not claimed, and between two mu nothing is.
 //!
-//! Whether an end state diverges is decided by [`divergence_at`]: by a certificate that the checker
-//! has accepted, or by the theorem for states in which nothing slips.
+//! Whether a state diverges is decided by [`divergence_at`]: by a certificate that the checker has
+//! accepted, or by the theorem for states in which nothing slips.
 
 use super::error::Error;
 use super::loads::{LoadPath, Loads, ProvedStates, certify_states};
@@ -24,8 +25,8 @@ use mceip_engine::analysis::{
 };
 use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
-use mceip_model::{LoadedBody, ModelError, System};
-use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd};
+use mceip_model::{ContactState, LoadedBody, ModelError, System};
+use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd, Stretch};
 use num_traits::{One, Signed};
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -156,10 +157,12 @@ fn short_decimal(near: &Rational, distance: &Rational) -> Rational {
 pub struct OwnCritical {
     loads: Loads,
     is_in_doubles: bool,
+    is_end_alone: bool,
     path_friction: Rational,
     /// What the loads lead to at each mu, ascending.
     pub points: Vec<FrictionPoint>,
-    /// The analysis of the state at the lower end of the bracket, its contact states held.
+    /// The analysis of one state, held: of that in which divergence is found at the critical mu,
+    /// else of that in which the path ends at the last mu without divergence.
     pub frozen: Option<Analysis>,
 }
 
@@ -168,29 +171,84 @@ pub struct OwnCritical {
 pub struct FrictionPoint {
     /// The path at this mu.
     pub path: LoadingPath,
-    /// The equilibrium in which it ends; `None` if it ends before the loads are applied.
-    pub end_state: Option<EndState>,
+    /// The equilibria on it that were asked whether they can diverge, each set of contact states
+    /// once, up to the first that can. States in which nothing slips cannot; that in which the path
+    /// ends is here all the same.
+    pub examined: Vec<ExaminedEquilibrium>,
+    /// Are the contact states of the last of them proved? `None` where there is none.
+    pub states: Option<ProvedStates>,
 }
 
-/// What is known of the equilibrium in which a path ends.
+/// What is known of an equilibrium on a path.
 #[derive(Debug, Clone)]
-pub struct EndState {
+pub struct ExaminedEquilibrium {
+    /// Where it is.
+    pub place: PathPlace,
     /// The equilibrium.
     pub equilibrium: Equilibrium,
-    /// Are its contact states proved?
-    pub states: ProvedStates,
     /// Can it diverge in the form (8)?
     pub divergence: Divergence,
     /// The certificate of that; `None` where a theorem answers.
     pub proof: Option<Proof>,
 }
 
+/// A place on a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PathPlace {
+    /// Inside a stretch, from 0.
+    Inside(usize),
+    /// Where the loads are applied; of a load without end inside the last stretch.
+    End,
+}
+
+impl PathPlace {
+    /// The stretch.
+    pub fn stretch(self, path: &LoadingPath) -> &Stretch {
+        match self {
+            PathPlace::Inside(stretch) => &path.stretches[stretch],
+            PathPlace::End => &path.stretches[path.stretches.len() - 1],
+        }
+    }
+
+    fn equilibrium(self, path: &LoadingPath) -> &Equilibrium {
+        let stretch = self.stretch(path);
+        match self {
+            PathPlace::Inside(_) => &stretch.inside,
+            PathPlace::End => stretch.last(),
+        }
+    }
+
+    /// The places that are asked about, in order: the end alone, or one for each stretch in which
+    /// something slips, and the end. A path that ends before the loads are applied has none.
+    fn all(path: &LoadingPath, is_end_alone: bool) -> Vec<PathPlace> {
+        let mut places = Vec::new();
+        for (k, stretch) in path.stretches.iter().enumerate().filter(|_| !is_end_alone) {
+            let states = stretch.equilibrium_states();
+            let slips = |state: &ContactState| matches!(state, ContactState::Slip { .. });
+            if states.iter().any(slips) {
+                places.push(PathPlace::Inside(k));
+            }
+        }
+
+        let last = path.stretches.last();
+        if let Some(last) = last.filter(|_| path.is_whole()) {
+            let is_inside_the_same = last.equilibrium_states() == last.last().contact_states();
+            if is_inside_the_same {
+                places.pop_if(|place| *place == PathPlace::Inside(path.stretches.len() - 1));
+            }
+            places.push(PathPlace::End);
+        }
+
+        places
+    }
+}
+
 /// What is found at a mu, as far as neighbours are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrictionAnswer {
-    /// The equilibrium in which the path ends can diverge, cannot, or that is not known.
+    /// An equilibrium on the path can diverge, none can, or that is not known.
     Equilibrium(Verdict),
-    /// The path ends before the loads are applied.
+    /// The path ends before the loads are applied, and no equilibrium on it is known to diverge.
     NoPath {
         /// Was every set of contact states tried?
         is_certain: bool,
@@ -219,14 +277,40 @@ impl FrictionPoint {
         &self.path.steps.friction
     }
 
+    /// The equilibrium that decides: the first that can diverge, with which the search along the
+    /// path ends, else the last on the path.
+    pub fn deciding(&self) -> Option<&ExaminedEquilibrium> {
+        self.examined.last()
+    }
+
+    /// Is it one that diverges?
+    pub fn deciding_diverges(&self) -> bool {
+        let deciding = self.deciding();
+        deciding.is_some_and(|e| e.divergence.verdict == Verdict::Present)
+    }
+
     /// What is found at it.
     pub fn answer(&self) -> FrictionAnswer {
-        match (&self.end_state, &self.path.end) {
-            (Some(end), _) => FrictionAnswer::Equilibrium(end.divergence.verdict),
-            (None, LoadingPathEnd::NoContinuation { why, .. }) => FrictionAnswer::NoPath {
+        if self.deciding_diverges() {
+            return FrictionAnswer::Equilibrium(Verdict::Present);
+        }
+
+        match &self.path.end {
+            LoadingPathEnd::NoContinuation { why, .. } => FrictionAnswer::NoPath {
                 is_certain: why.is_proved(),
             },
-            (None, _) => FrictionAnswer::NoPath { is_certain: false },
+            _ => FrictionAnswer::Equilibrium(self.worst()),
+        }
+    }
+
+    /// Undecided if one of the equilibria is.
+    fn worst(&self) -> Verdict {
+        let mut verdicts = self.examined.iter().map(|e| e.divergence.verdict);
+        let is_proved = !self.examined.is_empty() && verdicts.all(|v| v == Verdict::Absent);
+        if is_proved {
+            Verdict::Absent
+        } else {
+            Verdict::Undecided
         }
     }
 }
@@ -266,6 +350,21 @@ impl OwnCritical {
         }
     }
 
+    /// The point whose deciding state is analysed with its contact states held.
+    fn to_be_held(&self) -> Option<&FrictionPoint> {
+        let absent = |point: &&FrictionPoint| point.answer() == FrictionAnswer::ABSENT;
+        match self.bracket() {
+            Bracket::Between(_, critical) | Bracket::AtMost(critical)
+                if critical.deciding_diverges() =>
+            {
+                Some(critical)
+            }
+            Bracket::Between(absent, _) => Some(absent),
+            Bracket::AtMost(_) => None,
+            Bracket::Undecided | Bracket::None => self.points.iter().rfind(absent),
+        }
+    }
+
     /// Is nothing found because an answer is missing?
     pub fn is_undecided(&self) -> bool {
         matches!(self.bracket(), Bracket::Undecided)
@@ -284,6 +383,11 @@ impl OwnCritical {
     /// Was the body condensed in doubles?
     pub fn is_in_doubles(&self) -> bool {
         self.is_in_doubles
+    }
+
+    /// Was the equilibrium in which the path ends asked alone?
+    pub fn is_end_alone(&self) -> bool {
+        self.is_end_alone
     }
 
     /// In words, with a table: what `mceip path --own-critical` prints first.
@@ -305,21 +409,22 @@ pub(crate) fn require_mass(body: &LoadedBody) -> Result<(), Error> {
     }
 }
 
-/// The certificate about divergence that an earlier run has made at a mu.
-type Earlier<'a> = dyn Fn(&Rational) -> Option<Certificate> + 'a;
+/// The certificate about divergence that an earlier run has made at a mu and a place.
+type Earlier<'a> = dyn Fn(&Rational, PathPlace) -> Option<Certificate> + 'a;
 
 /// A search for the own critical friction; see [`LoadPath::own_critical`].
 pub struct FindOwnCritical<'a> {
     load_path: &'a LoadPath,
     grid: FrictionGrid,
+    is_end_alone: bool,
     earlier: Box<Earlier<'a>>,
     on_point: Box<dyn Fn(&FrictionPoint) + 'a>,
     watched: Watched<'a>,
 }
 
 impl LoadPath {
-    /// From which friction on do these loads lead to an equilibrium that can diverge in the form
-    /// (8)?
+    /// From which friction on does the path of these loads meet an equilibrium that can diverge in
+    /// the form (8)?
     ///
     /// ```
     /// use mceip::{Bracket, FrictionGrid, Loads};
@@ -334,7 +439,8 @@ impl LoadPath {
         FindOwnCritical {
             load_path: self,
             grid,
-            earlier: Box::new(|_| None),
+            is_end_alone: false,
+            earlier: Box::new(|_, _| None),
             on_point: Box::new(|_| {}),
             watched: Watched::default(),
         }
@@ -344,9 +450,19 @@ impl LoadPath {
 watched_question!(FindOwnCritical, "what was examined is kept");
 
 impl<'a> FindOwnCritical<'a> {
-    /// Gives the certificate about divergence that an earlier run has made at a mu: if it is one of
-    /// the problem met there, only what it leaves open is searched.
-    pub fn resume(mut self, earlier: impl Fn(&Rational) -> Option<Certificate> + 'a) -> Self {
+    /// Asks the equilibrium in which the path ends alone, for large bodies: what the path meets
+    /// before is not examined.
+    pub fn end_alone(mut self, is_end_alone: bool) -> Self {
+        self.is_end_alone = is_end_alone;
+        self
+    }
+
+    /// Gives the certificate about divergence that an earlier run has made at a mu and a place: if
+    /// it is one of the problem met there, only what it leaves open is searched.
+    pub fn resume(
+        mut self,
+        earlier: impl Fn(&Rational, PathPlace) -> Option<Certificate> + 'a,
+    ) -> Self {
         self.earlier = Box::new(earlier);
         self
     }
@@ -385,15 +501,16 @@ impl<'a> FindOwnCritical<'a> {
         let mut own = OwnCritical {
             loads: self.load_path.loads().clone(),
             is_in_doubles: self.load_path.is_in_doubles(),
+            is_end_alone: self.is_end_alone,
             path_friction: self.load_path.as_path().steps.friction.clone(),
             points,
             frozen: None,
         };
-        if let Bracket::Between(absent, _) = own.bracket()
-            && let Some(end) = &absent.end_state
+        if let Some(point) = own.to_be_held()
+            && let Some(examined) = point.deciding()
             && !watch.is_cancelled()
         {
-            let frozen = self.frozen(&end.equilibrium, absent.friction(), &watch)?;
+            let frozen = self.frozen(&examined.equilibrium, point.friction(), &watch)?;
             own.frozen = Some(frozen);
         }
 
@@ -404,17 +521,21 @@ impl<'a> FindOwnCritical<'a> {
         self.load_path.loads().body().system()
     }
 
-    /// Follows the path at this mu and decides whether its end diverges; `None` if cancelled.
+    /// Follows the path at this mu and decides whether an equilibrium on it diverges; `None` if
+    /// cancelled.
     fn examine(
         &self,
         mu: Rational,
         count: usize,
         watch: &Watch<'_>,
     ) -> Result<Option<FrictionPoint>, Error> {
-        let stage = format!("path at mu = {}, and divergence at its end", mu_text(&mu));
-        let mut progress = Progress::stage(&stage);
-        progress.done = count as u64;
-        watch.report(&progress);
+        let stage = format!("path at mu = {}", mu_text(&mu));
+        let say = |stage: &str| {
+            let mut progress = Progress::stage(stage);
+            progress.done = count as u64;
+            watch.report(&progress);
+        };
+        say(&stage);
 
         let amounts = self.load_path.as_path().steps.amounts.clone();
         let steps = LoadSteps::new(mu.clone(), amounts);
@@ -426,34 +547,73 @@ impl<'a> FindOwnCritical<'a> {
                 ControlFlow::Continue(())
             }
         })?;
+        if path.end == LoadingPathEnd::Interrupted {
+            return Ok(None);
+        }
 
-        let end_state = match (&path.end, path.stretches.last()) {
-            (LoadingPathEnd::Interrupted, _) => return Ok(None),
-            (LoadingPathEnd::NoContinuation { .. }, _) => None,
-            (LoadingPathEnd::AllApplied | LoadingPathEnd::NoFurtherEvent, None) => return Ok(None),
-            (LoadingPathEnd::AllApplied | LoadingPathEnd::NoFurtherEvent, Some(stretch)) => {
-                let equilibrium = stretch.last().clone();
-                let system = self.state(&equilibrium, &mu)?;
-                let options = AnalysisOptions::default();
-                let earlier = (self.earlier)(&mu);
-                let (divergence, proof) =
-                    divergence_at(&system, &mu, earlier.as_ref(), &options, &watch.quiet())?;
-                if watch.is_cancelled() {
-                    return Ok(None);
+        let mut examined: Vec<ExaminedEquilibrium> = Vec::new();
+        for place in PathPlace::all(&path, self.is_end_alone) {
+            let equilibrium = place.equilibrium(&path);
+            let states = equilibrium.contact_states();
+            let mut same = examined.iter();
+            let same = same.find(|e| e.equilibrium.contact_states() == states);
+            let (divergence, proof) = match same {
+                Some(_) if place != PathPlace::End => continue,
+                Some(same) => (same.divergence.clone(), same.proof.clone()),
+                None => {
+                    say(&format!("{stage}, divergence {}", place_word(place)));
+                    self.divergence(equilibrium, &mu, place, watch)?
                 }
-                let body = self.load_path.loads().body();
-                Some(EndState {
-                    states: certify_states(body, &path, stretch, &equilibrium),
-                    equilibrium,
-                    divergence,
-                    proof,
-                })
+            };
+            if watch.is_cancelled() {
+                return Ok(None);
             }
-        };
 
-        let point = FrictionPoint { path, end_state };
+            let is_present = divergence.verdict == Verdict::Present;
+            examined.push(ExaminedEquilibrium {
+                place,
+                equilibrium: equilibrium.clone(),
+                divergence,
+                proof,
+            });
+            if is_present {
+                break;
+            }
+        }
+
+        let body = self.load_path.loads().body();
+        let states = examined.last().map(|last| {
+            let stretch = last.place.stretch(&path);
+            certify_states(body, &path, stretch, &last.equilibrium)
+        });
+        let point = FrictionPoint {
+            path,
+            examined,
+            states,
+        };
         (self.on_point)(&point);
         Ok(Some(point))
+    }
+
+    /// Can the body diverge in the contact states of an equilibrium? With the certificate.
+    fn divergence(
+        &self,
+        equilibrium: &Equilibrium,
+        mu: &Rational,
+        place: PathPlace,
+        watch: &Watch<'_>,
+    ) -> Result<(Divergence, Option<Proof>), Error> {
+        let system = self.state(equilibrium, mu)?;
+        let options = AnalysisOptions::default();
+        let earlier = (self.earlier)(mu, place);
+        let earlier = earlier.as_ref();
+        Ok(divergence_at(
+            &system,
+            mu,
+            earlier,
+            &options,
+            &watch.quiet(),
+        )?)
     }
 
     /// The body in the contact states of an equilibrium.
@@ -477,6 +637,13 @@ impl<'a> FindOwnCritical<'a> {
         };
 
         Ok(analyse(None, &system, mu, &options, &watch.quiet())?)
+    }
+}
+
+fn place_word(place: PathPlace) -> String {
+    match place {
+        PathPlace::Inside(stretch) => format!("in stretch {stretch}"),
+        PathPlace::End => "at its end".into(),
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::path::{LETTERS, amount_text, end_text, states_json};
 use super::{mu_text, warnings_text};
-use crate::front::{Bracket, EndState, FrictionPoint, OwnCritical};
+use crate::front::{
+    Bracket, ExaminedEquilibrium, FrictionAnswer, FrictionPoint, OwnCritical, PathPlace,
+};
 use mceip_engine::analysis::{Analysis, Verdict};
 use mceip_engine::report::{Table, six_digits};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
@@ -27,23 +29,31 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
         ""
     };
 
+    let examined = if own.is_end_alone() {
+        "Examined is the equilibrium at the end of the loads on the path that is followed at each \
+         mu (of a load without end: one inside the last stretch). What the path meets before is \
+         NOT examined."
+    } else {
+        "Examined is the path that is followed at each mu: an equilibrium inside each stretch, up \
+         to the first that can diverge, and the one at the end of the loads (of a load without \
+         end: inside the last stretch). The columns are about the one that decides."
+    };
     format!(
         "{out}\n{warnings}\n{LETTERS}\n{table}\n\
-         Examined is the equilibrium at the end of the loads on the path that is followed at each \
-         mu (of a load without end: one inside the last stretch). The path is exact, but has no \
-         certificate, and may be one of several. \"Proved\" rests on a certificate or a \
-         theorem: that under these loads there is an equilibrium in these contact states, and \
-         whether it can diverge. States before the end, and other mu, are not \
+         {examined} The path is exact, but has no certificate, and may be one of several. \
+         \"Proved\" rests on a certificate or a theorem: that under these loads there is an \
+         equilibrium in these contact states, and whether states can diverge. Other mu are not \
          examined.{rounded}\n"
     )
 }
 
 /// The columns of the table of what was examined.
-pub(crate) const HEADER: [&str; 5] = [
+pub(crate) const HEADER: [&str; 6] = [
     "mu",
+    "where",
     "contact states",
     "of an equilibrium",
-    "divergence in them",
+    "divergence",
     "largest growth rate proved",
 ];
 
@@ -67,13 +77,18 @@ fn headline(own: &OwnCritical, names: &[&str]) -> String {
         return "No own critical friction was found: nothing was examined.".into();
     }
 
+    let none_diverges = if own.is_end_alone() {
+        "the equilibrium in which the path of these loads ends cannot diverge in the form (8), \
+         proved"
+    } else {
+        "no equilibrium on the path of these loads can diverge in the form (8), proved"
+    };
     match own.bracket() {
         Bracket::Between(absent, critical) => {
             let [lo, hi] = [absent, critical].map(|point| mu_text(point.friction()));
             format!(
                 "OWN CRITICAL FRICTION: between {lo} and {hi}, the first change among the mu \
-                 examined. At mu = {lo} the equilibrium in which the path of these loads ends \
-                 cannot diverge in the form (8), proved; at mu = {hi} {}.{}{}",
+                 examined. At mu = {lo} {none_diverges}; at mu = {hi} {}.{}{}",
                 critical_text(critical, names),
                 uncertified_text(&[absent, critical]),
                 undecided_text(own, critical)
@@ -90,9 +105,8 @@ fn headline(own: &OwnCritical, names: &[&str]) -> String {
             "No own critical friction was found at the {count} mu examined; some are undecided."
         ),
         Bracket::None => format!(
-            "No own critical friction was found at the {count} mu examined: at each of them the \
-             equilibrium in which the path of these loads ends cannot diverge in the form (8), \
-             proved.{}",
+            "No own critical friction was found at the {count} mu examined: at each of them \
+             {none_diverges}.{}",
             uncertified_text(&own.points.iter().collect::<Vec<_>>())
         ),
     }
@@ -100,15 +114,39 @@ fn headline(own: &OwnCritical, names: &[&str]) -> String {
 
 /// Why this mu is critical, as what follows "at mu = ...".
 fn critical_text(point: &FrictionPoint, names: &[&str]) -> String {
-    if point.end_state.is_some() {
-        return "the equilibrium in which the path ends can diverge, proved".into();
+    match point.deciding() {
+        Some(examined) if point.deciding_diverges() => format!(
+            "the equilibrium {} can diverge, proved{}",
+            where_text(examined.place, &point.path, names),
+            rate_of(examined)
+                .map(|rate| format!(" (a growth rate of {rate} 1/s)"))
+                .unwrap_or_default()
+        ),
+        _ => format!(
+            "the path ends before ({}): no contact states go on from there, every set was tried, \
+             and what follows is dynamic",
+            last_place(&point.path, names)
+        ),
     }
+}
 
-    format!(
-        "the path ends before ({}): no contact states go on from there, every set was tried, and \
-         what follows is dynamic",
-        last_place(&point.path, names)
-    )
+/// Where on a path an equilibrium is.
+fn where_text(place: PathPlace, path: &LoadingPath, names: &[&str]) -> String {
+    let stretch = place.stretch(path);
+    match place {
+        PathPlace::End => "in which the path ends".into(),
+        PathPlace::Inside(number) => format!(
+            "inside stretch {number} ({}, {} of it)",
+            names[stretch.step],
+            amount_text(&stretch.inside)
+        ),
+    }
+}
+
+/// The largest growth rate that is proved.
+fn rate_of(examined: &ExaminedEquilibrium) -> Option<String> {
+    let last = examined.divergence.modes.last();
+    last.map(|mode| six_digits(mode.growth_rate))
 }
 
 /// How much of which load is applied at the end of a path.
@@ -135,8 +173,8 @@ fn undecided_text(own: &OwnCritical, critical: &FrictionPoint) -> String {
 
 /// That what is said of these points rests on contact states without a certificate, where it does.
 fn uncertified_text(points: &[&FrictionPoint]) -> &'static str {
-    let ends = points.iter().filter_map(|point| point.end_state.as_ref());
-    if ends.into_iter().any(|end| end.states.is_err()) {
+    let is_uncertified = |point: &&FrictionPoint| matches!(point.states, Some(Err(_)));
+    if points.iter().any(is_uncertified) {
         " What is proved is divergence or its absence in the contact states of the path; that an \
          equilibrium has them is not certified at each of these mu."
     } else {
@@ -158,8 +196,8 @@ fn frozen_text(frozen: &Analysis) -> String {
     };
 
     format!(
-        "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that these loads lead \
-         to at mu = {mu}. That is a statement about these states at every mu; but with another \
+        "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that the table shows \
+         at mu = {mu}. That is a statement about these states at every mu; but with another \
          friction the same loads may lead to other states, of which the own one tells."
     )
 }
@@ -174,28 +212,42 @@ fn rounded_down(mu: &Rational) -> String {
 
 fn cells(point: &FrictionPoint, names: &[&str]) -> Vec<String> {
     let mu = mu_text(point.friction());
-    let Some(end) = &point.end_state else {
-        let word = if point.answer().is_critical() {
-            "no path"
-        } else {
-            "undecided: the path stops"
-        };
-        let place = last_place(&point.path, names);
-        let none = || String::from("-");
-        return vec![mu, none(), none(), format!("{word} ({place})"), none()];
+    let answer = point.answer();
+    let none = || String::from("-");
+    let examined = match (point.deciding(), answer) {
+        (Some(examined), FrictionAnswer::Equilibrium(_)) => examined,
+        (_, answer) => {
+            let word = if answer.is_critical() {
+                "no path"
+            } else {
+                "undecided: the path stops"
+            };
+            let place = last_place(&point.path, names);
+            return vec![mu, place, none(), none(), word.into(), none()];
+        }
     };
 
-    let verdict = match end.divergence.verdict {
-        Verdict::Undecided => "undecided".into(),
-        decided => format!("{}, proved", decided.word()),
+    let verdict = match answer {
+        FrictionAnswer::Equilibrium(Verdict::Absent) => "absent, proved",
+        FrictionAnswer::Equilibrium(Verdict::Present) => "present, proved",
+        _ => "undecided",
     };
-    let rate = end.divergence.modes.last();
-    let rate = rate.map_or_else(|| "-".into(), |mode| six_digits(mode.growth_rate));
-    let states = match &end.states {
-        Ok(_) => "proved".into(),
-        Err(_) => "not certified".into(),
+    let place = match examined.place {
+        PathPlace::Inside(stretch) => format!("stretch {stretch}"),
+        PathPlace::End => "end".into(),
     };
-    vec![mu, end.equilibrium.picture(), states, verdict, rate]
+    let states = match &point.states {
+        Some(Ok(_)) => "proved",
+        Some(Err(_)) | None => "not certified",
+    };
+    vec![
+        mu,
+        place,
+        examined.equilibrium.picture(),
+        states.into(),
+        verdict.into(),
+        rate_of(examined).unwrap_or_else(none),
+    ]
 }
 
 /// For programs.
@@ -239,32 +291,41 @@ fn frozen_json(frozen: &Analysis) -> Value {
 
 fn point_json(point: &FrictionPoint, names: &[&str], candidates: &[Particle]) -> Value {
     let mu = mu_text(point.friction());
-    match &point.end_state {
-        Some(end) => end_json(&mu, end),
-        None => json!({
-            "mu": mu,
+    let mut out = match (point.deciding(), point.answer()) {
+        (Some(examined), FrictionAnswer::Equilibrium(verdict)) => {
+            examined_json(examined, verdict, point)
+        }
+        (_, answer) => json!({
             "no_path": {
                 "at": last_place(&point.path, names),
                 "why": end_text(&point.path, candidates),
-                "all_tried": point.answer().is_critical(),
+                "all_tried": answer.is_critical(),
             },
         }),
-    }
+    };
+    out["mu"] = json!(mu);
+    out["examined"] = json!(point.examined.len());
+    out
 }
 
-fn end_json(mu: &str, end: &EndState) -> Value {
-    let modes = end.divergence.modes.iter();
+/// The equilibrium that decides, with what is known of the whole path.
+fn examined_json(examined: &ExaminedEquilibrium, verdict: Verdict, point: &FrictionPoint) -> Value {
+    let modes = examined.divergence.modes.iter();
     let lambda2 = modes.map(|mode| {
         let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
         [lo, hi]
     });
+    let stretch = match examined.place {
+        PathPlace::Inside(stretch) => Some(stretch),
+        PathPlace::End => None,
+    };
 
     json!({
-        "mu": mu,
-        "states": states_json(end.equilibrium.contact_states()),
-        "states_certified": end.states.is_ok(),
-        "divergence": end.divergence.verdict.word(),
-        "families": end.divergence.families,
+        "stretch": stretch,
+        "states": states_json(examined.equilibrium.contact_states()),
+        "states_certified": matches!(point.states, Some(Ok(_))),
+        "divergence": verdict.word(),
+        "families": examined.divergence.families,
         "lambda2": lambda2.collect::<Vec<_>>(),
     })
 }

@@ -64,7 +64,7 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     let folder = Folder::new();
     let file = folder.write("point.json", &pulled_point("1").to_string());
     let proofs = folder.path("proofs");
-    let range = "--own-critical 0.5,4 --width 1e-6";
+    let range = "--own-critical 0.5,4 --end-alone --width 1e-6";
 
     // Of an earlier run in which something slipped at 0.5, and the path reached its end at 1.5.
     std::fs::create_dir(&proofs).unwrap();
@@ -131,7 +131,7 @@ fn the_equilibrium_asked_about_is_that_at_the_very_end_of_the_loads() {
     loads["steps"][1]["forces"] = json!([[0, 3]]);
     let file = folder.write("point.json", &loads.to_string());
 
-    let range = "--own-critical 0.75,0.8 --grid 1";
+    let range = "--own-critical 0.75,0.8 --end-alone --grid 1";
     let answer = exits_with_json(0, &format!("path {file} {range} --json"));
 
     let points = answer["own_critical"]["points"].as_array().unwrap();
@@ -151,7 +151,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     let file = example("own-critical");
     let proofs = folder.path("proofs");
 
-    let options = format!("--own-critical 0.5,3.9 --json --certificates {proofs}");
+    let options = format!("--own-critical 0.5,3.9 --end-alone --json --certificates {proofs}");
     let answer = exits_with_json(0, &format!("path {file} {options}"));
 
     let own = &answer["own_critical"];
@@ -161,7 +161,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     );
     assert_eq!(own["found"], "between");
     let frozen = number(&own["frozen"]["absent_below"]);
-    assert!((frozen - 2.1753).abs() < 1e-3, "{frozen}");
+    assert!((frozen - 1.11803).abs() < 1e-4, "{frozen}");
 
     let problems = names(&proofs);
     let of_frozen = problems.iter().filter(|name| name.starts_with("frozen-"));
@@ -177,7 +177,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
 
     // With the same answers a page and pictures.
     let [page, figures] = ["own.html", "figures"].map(|name| folder.path(name));
-    let drawn = format!("--own-critical 0.5,3.9 --report {page} --pictures {figures}");
+    let drawn = format!("--own-critical 0.5,3.9 --end-alone --report {page} --pictures {figures}");
     let said = exits(0, &format!("path {file} {drawn}"));
     let html = std::fs::read_to_string(&page).unwrap();
     let headline = said.lines().next().unwrap();
@@ -228,6 +228,84 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
     assert!(seen[0] >= 10 && seen[1] >= 10, "{seen:?}");
 }
 
+/// The whole path decides: the first of its stretches whose state diverges, as `analyze` says of
+/// each state that `path` writes at this mu alone; where none does, the equilibrium at its end.
+#[test]
+fn the_own_critical_friction_is_that_of_the_first_state_on_the_path_that_diverges() {
+    let folder = Folder::new();
+    let file = example("own-critical");
+    let proofs = folder.path("proofs");
+    let options = format!("--own-critical 0.5,3.9 --json --certificates {proofs}");
+    // Of an earlier run: other stretches, and a path that reached its end.
+    std::fs::create_dir(&proofs).unwrap();
+    for stale in [
+        "mu-1.12-stretch-007.problem",
+        "mu-1.12-stretch-002.equilibrium",
+        "mu-1.12.equilibrium",
+    ] {
+        std::fs::write(format!("{proofs}/{stale}.json"), "{}").unwrap();
+    }
+
+    let answer = exits_with_json(0, &format!("path {file} {options}"));
+
+    let own = &answer["own_critical"];
+    assert_eq!(
+        own["bracket"],
+        json!({"absent": "1.11", "critical": "1.12"})
+    );
+    assert_eq!(own["frozen"]["states_of"], "1.12");
+    let mut seen = [0, 0];
+    for point in own["points"].as_array().unwrap() {
+        let mu = point["mu"].as_str().unwrap();
+        let states = folder.path(&format!("states-{mu}"));
+        exits(0, &format!("path {file} --mu {mu} --states {states}"));
+        let diverges = |name: &&String| {
+            let analysis =
+                exits_with_json(0, &format!("analyze {states}/{name} --samples 0 --json"));
+            analysis["divergence"]["verdict"] == "present"
+        };
+        let written = names(&states);
+        let first = written.iter().find(diverges);
+
+        // Several stretches with the same states are one question.
+        let stretch = point["stretch"].as_u64();
+        assert_eq!(point["divergence"] == "present", first.is_some(), "{mu}");
+        let name = match (stretch, first) {
+            (Some(stretch), Some(first)) => {
+                assert_eq!(*first, format!("stretch-{stretch:03}.json"));
+                format!("mu-{mu}-stretch-{stretch:03}")
+            }
+            _ => format!("mu-{mu}"),
+        };
+        seen[usize::from(stretch.is_some())] += 1;
+        exits(0, &format!("check {file} {proofs}/{name}.equilibrium.json"));
+        if first.is_some() {
+            let said = exits(
+                0,
+                &format!("check {proofs}/{name}.problem.json {proofs}/{name}.certificate.json"),
+            );
+            assert!(said.contains("and no other"), "{said}");
+        }
+    }
+    assert!(seen[0] >= 4 && seen[1] >= 4, "{seen:?}");
+
+    let of_1_12 = names(&proofs)
+        .into_iter()
+        .filter(|name| name.starts_with("mu-1.12"));
+    let of_1_12: Vec<String> = of_1_12.collect();
+    let expected = ["certificate", "equilibrium", "problem"];
+    let expected = expected.map(|kind| format!("mu-1.12-stretch-003.{kind}.json"));
+    for kept in &expected {
+        assert!(of_1_12.contains(kept), "{of_1_12:?}");
+    }
+    let stale = |name: &String| name.contains("007") || *name == "mu-1.12.equilibrium.json";
+    assert!(!of_1_12.iter().any(stale), "{of_1_12:?}");
+    assert!(
+        !of_1_12.contains(&"mu-1.12-stretch-002.equilibrium.json".into()),
+        "{of_1_12:?}"
+    );
+}
+
 /// With `--resume` a proof in the folder is taken, checked again, in place of a search; one of
 /// another problem, or a broken one, is not.
 #[test]
@@ -236,8 +314,9 @@ fn the_own_critical_friction_goes_on_from_the_proofs_of_an_earlier_run() {
     let file = example("own-critical");
     let proofs = folder.path("proofs");
     let of = |name: &str, kind: &str| format!("{proofs}/{name}.{kind}.json");
-    let own =
-        format!("path {file} --own-critical 1.77,1.8 --grid 3 --json --certificates {proofs}");
+    let own = format!(
+        "path {file} --own-critical 1.77,1.8 --end-alone --grid 3 --json --certificates {proofs}"
+    );
     let first = exits_with_json(0, &own);
 
     // A claim beside the complete set shows whose file it is.

@@ -42,6 +42,14 @@ pub struct LoadingPath {
 }
 
 impl LoadingPath {
+    /// Does it reach the end of the loads, or the last event of a load without end?
+    pub fn is_whole(&self) -> bool {
+        match self.end {
+            LoadingPathEnd::NoFurtherEvent | LoadingPathEnd::AllApplied => true,
+            LoadingPathEnd::NoContinuation { .. } | LoadingPathEnd::Interrupted => false,
+        }
+    }
+
     /// Does the path end in sliding: some candidate slides for ever, and none sticks?
     pub fn slides(&self) -> bool {
         let last = self.stretches.last();

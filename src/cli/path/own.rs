@@ -12,7 +12,7 @@ use crate::say::own_critical::{HEADER, headlines, rows_of};
 use crate::say::path::LETTERS;
 use crate::{
     Bracket, Certificate, FrictionAnswer, FrictionGrid, FrictionGridError, FrictionPoint,
-    OwnCritical,
+    OwnCritical, PathPlace,
 };
 use mceip_engine::analysis::{Proof, Verdict};
 use mceip_engine::run::Kept;
@@ -47,31 +47,48 @@ fn refused(option: &'static str, e: &FrictionGridError, given: &str) -> CliError
 }
 
 /// The certificate about divergence of an earlier run in this folder.
-pub(super) fn earlier(folder: &Folder, mu: &Rational) -> Option<Certificate> {
-    let path = folder.certificate_path(&name_of(mu));
+pub(super) fn earlier(folder: &Folder, mu: &Rational, place: PathPlace) -> Option<Certificate> {
+    let path = folder.certificate_path(&name_of(mu, place));
     let text = read_text("an earlier certificate", &path).ok()?;
     Certificate::from_json(&text).ok()
 }
 
-/// Writes the certificate of the contact states as `mu-VALUE.equilibrium.json`, and the proof
-/// about divergence, where there is one, as `mu-VALUE.problem.json` and
-/// `mu-VALUE.certificate.json`. Files of an earlier run that nothing takes the place of go.
+/// Writes the certificate of the contact states that decide as `NAME.equilibrium.json`, and the
+/// proofs about divergence as `NAME.problem.json` and `NAME.certificate.json`; NAME is `mu-VALUE`
+/// at the end of the path, `mu-VALUE-stretch-NUMBER` inside a stretch. Files of an earlier run that
+/// nothing takes the place of go.
 pub(super) fn keep_point(folder: &Folder, point: &FrictionPoint) {
-    let name = name_of(point.friction());
-    let end = point.end_state.as_ref();
-
-    let equilibrium = format!("{name}.equilibrium.json");
-    match end.and_then(|end| end.states.as_ref().ok()) {
-        Some(states) => {
-            if let Some(text) = folder.made(states.file()) {
-                folder.keep(&equilibrium, &text);
-            }
+    let mu = point.friction();
+    let equilibrium = |name: &str| format!("{name}.equilibrium.json");
+    let mut inside = Vec::new();
+    let mut has_end = false;
+    for (k, examined) in point.examined.iter().enumerate() {
+        let name = name_of(mu, examined.place);
+        match examined.place {
+            PathPlace::Inside(stretch) => inside.push(stretch),
+            PathPlace::End => has_end = true,
         }
-        None => folder.drop_earlier(&equilibrium),
+        match &examined.proof {
+            Some(proof) => keep_proof(folder, &name, proof),
+            None => folder.remove_proof(&name), // a theorem: nothing slips
+        }
+
+        let is_deciding = k + 1 == point.examined.len();
+        match &point.states {
+            Some(Ok(states)) if is_deciding => {
+                if let Some(text) = folder.made(states.file()) {
+                    folder.keep(&equilibrium(&name), &text);
+                }
+            }
+            _ => folder.drop_earlier(&equilibrium(&name)),
+        }
     }
-    match end.and_then(|end| end.proof.as_ref()) {
-        Some(proof) => keep_proof(folder, &name, proof),
-        None => folder.remove_proof(&name), // no path, or a theorem: nothing slips
+
+    let at_end = name_of(mu, PathPlace::End);
+    folder.keep_only(&format!("{at_end}-stretch"), &inside);
+    if !has_end {
+        folder.remove_proof(&at_end);
+        folder.drop_earlier(&equilibrium(&at_end));
     }
 }
 
@@ -92,9 +109,13 @@ fn keep_proof(folder: &Folder, name: &str, proof: &Proof) {
     }
 }
 
-/// The name of the files of a mu.
-fn name_of(mu: &Rational) -> String {
-    format!("mu-{}", mu_text(mu).replace('/', "over"))
+/// The name of the files of a place on the path at a mu.
+fn name_of(mu: &Rational, place: PathPlace) -> String {
+    let mu = mu_text(mu).replace('/', "over");
+    match place {
+        PathPlace::End => format!("mu-{mu}"),
+        PathPlace::Inside(stretch) => format!("mu-{mu}-stretch-{stretch:03}"),
+    }
 }
 
 /// Where along mu the loads lead to what, and how fast it grows.
@@ -157,7 +178,7 @@ fn strip(own: &OwnCritical) -> Named {
         critical,
         words: ["\u{3bc} of the path", "first critical \u{3bc} examined"],
     };
-    let title = "Divergence of the equilibrium in which the loads end, against \u{3bc}";
+    let title = "Divergence on the path of the loads, against \u{3bc}";
     Named {
         name: "own-critical".into(),
         picture: presence_picture(title, &chart),
@@ -181,7 +202,7 @@ fn drawn(answer: FrictionAnswer) -> Presence {
 fn growth(own: &OwnCritical) -> Option<Named> {
     let mut certified = Vec::new();
     for point in &own.points {
-        let modes = point.end_state.iter().flat_map(|end| &end.divergence.modes);
+        let modes = point.examined.iter().flat_map(|e| &e.divergence.modes);
         certified.extend(modes.map(|mode| ChartPoint {
             mu: to_f64(point.friction()),
             lambda2: to_f64(&mode.lambda2.mid()),
