@@ -15,7 +15,7 @@ use super::output::{Folder, Output};
 use super::pictures;
 use crate::front::require_mass;
 use crate::say::counted;
-use crate::{FrictionGrid, LoadPath, Loads, OwnCritical};
+use crate::{FrictionGrid, LoadPath, Loads, OwnCritical, PathAnalysis};
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::run::{Kept, Progress, Watch};
 use mceip_exact::Rational;
@@ -59,7 +59,12 @@ pub(super) struct Args {
     /// removed.
     #[arg(long, value_name = "FOLDER")]
     states: Option<PathBuf>,
-    /// For each state with impending slip the complete set of MCEIP-mu, proved.
+    /// Whether the state inside each stretch can diverge at the mu of the path, and from which mu
+    /// on with its contact states held: the analysis of each, proved.
+    #[arg(long)]
+    analyze: bool,
+    /// For each state with impending slip the complete set of MCEIP-mu, proved: the mu at which
+    /// divergence begins at lambda = 0.
     #[arg(long)]
     complete: bool,
     /// With --complete: check these sets on K itself instead of the exactly condensed pencil
@@ -155,7 +160,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         [] => None,
         ends => Some(own::grid_of(ends, args.grid, &args.width)?),
     };
-    if own_asked.is_some() || !at_mu.is_empty() {
+    if own_asked.is_some() || !at_mu.is_empty() || args.analyze {
         require_mass(loads.body())?; // before the path takes its time
     }
 
@@ -197,6 +202,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let uncondensed = args.uncondensed || args.doubles;
     let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
     let own = own.transpose()?;
+    let analysed = if args.analyze {
+        let question = followed.analyze().cancel(job.cancel());
+        Some(question.on_progress(|progress| job.say(progress)).run()?)
+    } else {
+        None
+    };
     // The states of this path are not those that the own critical friction tells of.
     let are_examined = args.complete || (is_shown && own.is_none());
     let examined = if are_examined {
@@ -216,6 +227,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(Shown {
             followed: &followed,
             names: &names,
+            analysed: analysed.as_ref(),
             examined,
             own: own.as_ref(),
             branches: pictures::drawn(
@@ -243,6 +255,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let outcome = PathOutcome {
         followed: &followed,
         names: &names,
+        analysed,
         examined,
         own,
         certified,
@@ -262,6 +275,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(picture).and(pages)?;
     let code = exit_code(path, outcome.examined.as_ref(), outcome.is_interrupted);
+    let is_open = |analysed: &PathAnalysis| analysed.is_undecided();
+    if code == exit::DONE && outcome.analysed.as_ref().is_some_and(is_open) {
+        return Ok(exit::UNDECIDED);
+    }
     let mut certified = outcome.certified.iter().flatten();
     let is_certified = certified.all(|stretch| stretch.states.is_ok());
     if code == exit::DONE && !is_certified {
@@ -349,6 +366,8 @@ struct PathOutcome<'a> {
     followed: &'a LoadPath,
     /// Names of the steps.
     names: &'a [&'a str],
+    /// Whether the states diverge, if asked for.
+    analysed: Option<PathAnalysis>,
     /// What is proved of the states, if asked for.
     examined: Option<ExaminedStates>,
     /// The own critical friction, if asked for.
@@ -376,6 +395,9 @@ impl PathOutcome<'_> {
         };
         if let Some(certified) = &self.certified {
             out += &certified_text(certified);
+        }
+        if let Some(analysed) = &self.analysed {
+            out += &format!("\n{}", analysed.text());
         }
         if let Some(examined) = &self.examined {
             out += &states::text_of(examined, self.path());
@@ -405,6 +427,9 @@ impl PathOutcome<'_> {
             out["states_certified"] = json!(states.collect::<Vec<_>>());
             let unique = certified.iter().map(|stretch| stretch.is_unique);
             out["rates_certified_unique"] = json!(unique.collect::<Vec<_>>());
+        }
+        if let Some(analysed) = &self.analysed {
+            out["analyses"] = analysed.to_json();
         }
         if let Some(examined) = &self.examined {
             let places = self.file().body.places();

@@ -14,6 +14,8 @@ mod loads;
 mod matrix;
 #[cfg(feature = "solver")]
 mod own_critical;
+#[cfg(feature = "solver")]
+mod path_analysis;
 mod problem;
 #[cfg(feature = "solver")]
 mod run;
@@ -43,6 +45,8 @@ pub use own_critical::{
     Bracket, ExaminedEquilibrium, FindOwnCritical, FrictionAnswer, FrictionGrid, FrictionGridError,
     FrictionPoint, OwnCritical, PathPlace,
 };
+#[cfg(feature = "solver")]
+pub use path_analysis::{AnalyzePath, PathAnalysis, StateAnalysis};
 pub use problem::{Problem, check};
 #[cfg(feature = "solver")]
 pub use solution::Solution;

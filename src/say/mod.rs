@@ -7,6 +7,7 @@ pub(crate) mod cover;
 pub(crate) mod enumeration;
 pub(crate) mod own_critical;
 pub(crate) mod path;
+pub(crate) mod path_analysis;
 pub(crate) mod search;
 pub(crate) mod stretches;
 

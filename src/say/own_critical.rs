@@ -185,21 +185,26 @@ fn uncertified_text(points: &[&FrictionPoint]) -> &'static str {
 /// The frozen critical friction, and why it is another number.
 fn frozen_text(frozen: &Analysis) -> String {
     let mu = mu_text(&frozen.friction);
-    let critical = &frozen.critical;
-    let bracket = match (&critical.absent_below, &critical.solution) {
-        (None, _) => "none, no divergence at any mu".into(),
-        (Some(below), None) => format!("not below {}", rounded_down(below)),
-        (Some(below), Some(solution)) => {
-            let above = enclosing_decimals(&solution.mu, DIGITS).1;
-            format!("between {} and {above}", rounded_down(below))
-        }
-    };
+    let bracket = bracket_text(frozen);
 
     format!(
         "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that the table shows \
          at mu = {mu}. That is a statement about these states at every mu; but with another \
          friction the same loads may lead to other states, of which the own one tells."
     )
+}
+
+/// Between which bounds the critical friction of held states lies.
+pub(super) fn bracket_text(held: &Analysis) -> String {
+    let critical = &held.critical;
+    match (&critical.absent_below, &critical.solution) {
+        (None, _) => "none, no divergence at any mu".into(),
+        (Some(below), None) => format!("not below {}", rounded_down(below)),
+        (Some(below), Some(solution)) => {
+            let above = enclosing_decimals(&solution.mu, DIGITS).1;
+            format!("between {} and {above}", rounded_down(below))
+        }
+    }
 }
 
 /// Digits of printed values.
@@ -278,10 +283,16 @@ pub(crate) fn json_of(own: &OwnCritical) -> Value {
 }
 
 fn frozen_json(frozen: &Analysis) -> Value {
-    let solution = frozen.critical.solution.as_ref();
+    let mut out = held_json(frozen);
+    out["states_of"] = json!(mu_text(&frozen.friction));
+    out
+}
+
+/// The bounds of the critical friction of held states.
+pub(super) fn held_json(held: &Analysis) -> Value {
+    let solution = held.critical.solution.as_ref();
     json!({
-        "states_of": mu_text(&frozen.friction),
-        "absent_below": frozen.critical.absent_below.as_ref().map(rounded_down),
+        "absent_below": held.critical.absent_below.as_ref().map(rounded_down),
         "present_at": solution.map(|s| {
             let (lo, hi) = enclosing_decimals(&s.mu, DIGITS);
             [lo, hi]

@@ -18,8 +18,9 @@ use crate::picture::{
     threshold_picture,
 };
 use crate::say::path::{LETTERS, amount_text, causes_text, continuations_text, of_which_body};
+use crate::say::path_analysis::{HEADER, rows_of, verdict_text};
 use crate::say::stretches::stretch_cells;
-use crate::{LoadPath, OwnCritical};
+use crate::{LoadPath, OwnCritical, PathAnalysis};
 use mceip_engine::run::Watch;
 use mceip_exact::{Interval, enclosing_decimals, to_f64, upper_decimal};
 use mceip_model::{Coordinates, ModelError, System};
@@ -31,6 +32,8 @@ pub(super) struct Shown<'a> {
     pub(super) followed: &'a LoadPath,
     /// Names of the steps.
     pub(super) names: &'a [&'a str],
+    /// Whether the states of the path diverge, if that was asked for.
+    pub(super) analysed: Option<&'a PathAnalysis>,
     /// What is proved of the states of the path, if that was asked for.
     pub(super) examined: Option<&'a ExaminedStates>,
     /// The own critical friction, if that was asked for.
@@ -126,6 +129,21 @@ pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Picture {
     };
     let title = "Loading path: resultants, and the state of each contact candidate";
     path_picture(title, &drawing)
+}
+
+/// Whether the states on the path diverge.
+fn analysis_section(analysed: &PathAnalysis) -> Section {
+    Section {
+        title: "Divergence of the states on the path".into(),
+        content: vec![
+            Content::Paragraph(verdict_text(analysed)),
+            Content::Table {
+                caption: "The states inside the stretches, held.".into(),
+                header: HEADER.map(String::from).to_vec(),
+                rows: rows_of(analysed),
+            },
+        ],
+    }
 }
 
 impl Shown<'_> {
@@ -235,6 +253,7 @@ impl Shown<'_> {
         let mut sections = vec![self.model_section()];
         sections.extend(self.own.map(own::section));
         sections.push(path);
+        sections.extend(self.analysed.map(analysis_section));
         if let Some(ExaminedStates {
             proved: states,
             refused,

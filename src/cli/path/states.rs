@@ -453,6 +453,10 @@ impl ProvedMode {
     }
 }
 
+/// What the table of thresholds says, and what it does not.
+const AT_ZERO: &str = "These are the mu at which divergence begins at lambda = 0, contact states \
+    held. With lambda^2 > 0 it may begin at a lower mu: --analyze tells from which on.";
+
 /// The answers as tables for people.
 pub(super) fn text_of(examined: &ExaminedStates, path: &LoadingPath) -> String {
     let mut stretches = path.stretches.iter();
@@ -463,7 +467,7 @@ pub(super) fn text_of(examined: &ExaminedStates, path: &LoadingPath) -> String {
     let states = &examined.proved;
     let mut out = String::from("\n");
     if !states.is_empty() {
-        out += &format!("{}\n", thresholds_table(states, path));
+        out += &format!("{}\n{AT_ZERO}\n\n", thresholds_table(states, path));
     }
     if states.iter().any(|state| !state.growing.is_empty()) {
         out += &format!("{}\n", growing_table(states));
