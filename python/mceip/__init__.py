@@ -41,7 +41,17 @@ from .answers import (
 from .drawing import Drawing, draw_mode
 from .exact import Interval
 from .inputs import Contact, Number
-from .loading import Body, Candidate, LoadPath, OwnCritical, Step, Stretch
+from .loading import (
+    Body,
+    Candidate,
+    CertifiedEquilibrium,
+    HeldState,
+    LoadPath,
+    OwnCritical,
+    PathAnalysis,
+    Step,
+    Stretch,
+)
 from .problem import ModelWarning, Problem, check
 from .progress import Listener
 
@@ -53,6 +63,7 @@ __all__ = [
     "Candidate",
     "Certificate",
     "Certified",
+    "CertifiedEquilibrium",
     "Claim",
     "Contact",
     "CriticalFriction",
@@ -60,6 +71,7 @@ __all__ = [
     "Evidence",
     "Family",
     "Found",
+    "HeldState",
     "Interval",
     "Listener",
     "LoadPath",
@@ -70,6 +82,7 @@ __all__ = [
     "Number",
     "OpenRegion",
     "OwnCritical",
+    "PathAnalysis",
     "Presence",
     "Problem",
     "Proof",

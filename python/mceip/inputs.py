@@ -64,11 +64,12 @@ Contacts = Union[
 ]
 
 
-def spelt(number: Any) -> str:
-    """A number as text that spells it exactly."""
+def spelt(number: Any, name: str | None = None) -> str:
+    """A number as text that spells it exactly; errors begin with its name."""
+    which = "" if name is None else f"{name}: "
     if isinstance(number, str):
         if not number.isascii():
-            raise MceipError("expected a number, got text with other characters")
+            raise MceipError(f"{which}expected a number, got text with other characters")
         return number
     if isinstance(number, np.generic):
         number = number.item()
@@ -77,7 +78,9 @@ def spelt(number: Any) -> str:
     except (TypeError, ValueError, OverflowError):
         # Not the number itself: Python refuses to spell a long one.
         kind = type(number).__name__
-        raise MceipError(f"expected a finite number of at most 4300 digits, got {kind}") from None
+        raise MceipError(
+            f"{which}expected a finite number of at most 4300 digits, got {kind}"
+        ) from None
 
 
 def triplets(name: str, matrix: Any, order: int | None = None) -> tuple[int, Triplets]:
@@ -229,7 +232,10 @@ def plain_contact(name: str, contact: Contact) -> Contact:
 
 def spelt_frame(name: str, frame: Sequence[Sequence[Number]]) -> list[list[str]]:
     """A frame with its numbers as text."""
-    rows = [[spelt(entry) for entry in row] for row in frame]
+    try:
+        rows = [[spelt(entry) for entry in row] for row in frame]
+    except TypeError:
+        rows = []
     if [len(row) for row in rows] != [2, 2]:
         raise MceipError(f"{name}: expected a frame of 2 x 2 numbers, got {frame!r}")
     return rows

@@ -16,10 +16,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import MceipError, NativeLoadPath, NativeLoads
-from .answers import Analysis, counted, two_lines
-from .exact import Interval, fraction_of, fraction_or_none, number_text
+from .answers import Analysis, counted, indices, two_lines
+from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text
 from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, triplets
-from .problem import Problem, warn_of
+from .problem import Problem, text_of, warn_of
 from .progress import Progress, listening
 
 if TYPE_CHECKING:
@@ -118,6 +118,8 @@ class Body:
             accept_warnings: neither says nor keeps what looks wrong.
             progress: as in `Problem`.
         """
+        if isinstance(steps, Step) or not isinstance(steps, Sequence):
+            raise MceipError(f"steps: expected a list of mceip.Step, got {type(steps).__name__}")
         loads = NativeLoads.made(
             self._dofs,
             self._stiffness,
@@ -126,7 +128,7 @@ class Body:
             self._gaps,
             self._held,
             [plain_step(k, step, self._dofs) for k, step in enumerate(steps)],
-            spelt(friction),
+            spelt(friction, "friction"),
             accept_warnings,
         )
         warn_of(loads.warnings())
@@ -134,7 +136,7 @@ class Body:
             path = loads.path(in_doubles, listener)
         if path is None:
             raise MceipError("the path was interrupted")
-        return LoadPath(path, float(fraction_of(spelt(friction))))
+        return LoadPath(path, float(fraction_of(spelt(friction, "friction"))))
 
 
 class LoadPath:
@@ -160,6 +162,27 @@ class LoadPath:
 
     def __str__(self) -> str:
         return self._native.text()
+
+    def analyze(self, *, progress: Progress = None) -> PathAnalysis:
+        """Can the states inside the stretches diverge at the friction of the path, and from which
+        friction on, each held?
+
+        Args:
+            progress: as in `Problem`.
+        """
+        with listening(progress) as listener:
+            found, text = self._native.analyze(listener)
+        return PathAnalysis([held_state_of(state) for state in json.loads(found)], text)
+
+    def check(self, certificate: str) -> CertifiedEquilibrium:
+        """What a certificate of `Stretch.certify` proves of this body; raises `RejectedError` where
+        it proves nothing."""
+        friction, amounts, states = self._native.check(text_of(certificate))
+        return CertifiedEquilibrium(
+            friction=fraction_of(friction),
+            amounts=[fraction_of(amount) for amount in amounts],
+            states=np.array(states),
+        )
 
     def own_critical(
         self,
@@ -217,6 +240,73 @@ class LoadPath:
     def __repr__(self) -> str:
         count = counted(len(self.stretches), "stretch", "stretches")
         return two_lines(f"LoadPath at mu = {self.friction:g}, {count}", self.end)
+
+
+@dataclass(frozen=True)
+class HeldState:
+    """The state inside a stretch of a path, its contact states held.
+
+    Attributes:
+        stretch: its number.
+        divergence: at the friction of the path: "present", "absent", "undecided".
+        lambda2: encloses lambda^2 of each motion that grows.
+        absent_below: there is no divergence below it; None: there is none at any coefficient.
+        present_at: encloses the smallest coefficient with divergence that is proved; None if none
+            is.
+    """
+
+    stretch: int
+    divergence: str
+    lambda2: list[Interval]
+    absent_below: Fraction | None
+    present_at: Interval | None
+
+
+@dataclass(frozen=True)
+class PathAnalysis:
+    """Which states on a path can diverge, in order of the stretches; its text is a table."""
+
+    states: list[HeldState]
+    text: str = field(repr=False)
+
+    @property
+    def diverging(self) -> list[HeldState]:
+        """Those in which divergence is proved at the friction of the path."""
+        return [state for state in self.states if state.divergence == "present"]
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        diverging = indices([state.stretch for state in self.diverging])
+        count = counted(len(self.states), "stretch", "stretches")
+        return two_lines(f"PathAnalysis of {count}", f"stretches that can diverge: {diverging}")
+
+
+@dataclass(frozen=True)
+class CertifiedEquilibrium:
+    """What an accepted certificate of contact states has proved: there is such an equilibrium.
+
+    Attributes:
+        friction: the coefficient mu.
+        amounts: how much of each step's load is applied.
+        states: of the candidates, as in `Stretch`.
+    """
+
+    friction: Fraction
+    amounts: list[Fraction]
+    states: npt.NDArray[np.str_] = field(compare=False)
+
+
+def held_state_of(answer: dict[str, Any]) -> HeldState:
+    present_at = answer["present_at"]
+    return HeldState(
+        stretch=answer["stretch"],
+        divergence=answer["divergence"],
+        lambda2=[interval_of(ends) for ends in answer["lambda2"]],
+        absent_below=fraction_or_none(answer["absent_below"]),
+        present_at=None if present_at is None else interval_of(present_at),
+    )
 
 
 def pressing(reactions: npt.NDArray[np.float64]) -> tuple[float, float]:
@@ -313,14 +403,23 @@ class Stretch:
 
     @property
     def problem(self) -> Problem | None:
-        """The problem in these contact states; None where nothing slips."""
+        """The problem in these contact states, without the held degrees of freedom; None where
+        nothing slips."""
         native = self._native.problem(self._number)
         return None if native is None else Problem(native)
 
     def analyze(self, **options: Any) -> Analysis | None:
-        """`Problem.analyze` in these contact states, held; None where nothing slips."""
+        """`Problem.analyze` in these contact states, held, with its modes over all degrees of
+        freedom of the body; None where nothing slips."""
         problem = self.problem
-        return None if problem is None else problem.analyze(**options)
+        if problem is None:
+            return None
+        analysis = problem.analyze(**options)
+        places = self._native.places()
+        for mode in analysis.answer["divergence"]["modes"]:
+            v = mode["v"]
+            mode["v"] = [0.0 if place is None else v[place] for place in places]
+        return analysis
 
     def certify(self) -> str:
         """A certificate that there is an equilibrium in these contact states, at one amount of the

@@ -98,7 +98,7 @@ class Problem:
         dofs, k = triplets("stiffness", stiffness)
         _, m = triplets("mass", mass, dofs)
         given = contacts_or_table(contacts)
-        native = NativeProblem.lambda2(dofs, k, m, spelt(friction), given)
+        native = NativeProblem.lambda2(dofs, k, m, spelt(friction, "friction"), given)
         if accept_warnings:
             return cls(native.without_warnings())
         warn_of(native.warnings())
@@ -252,7 +252,7 @@ class Problem:
             threads: all cores if not said; the answer does not depend on it.
             progress: see the class.
         """
-        mu = None if friction is None else spelt(friction)
+        mu = None if friction is None else spelt(friction, "friction")
         samples = count("samples", samples)
         with listening(progress) as listener:
             answer = self._native.analyze(mu, samples, thread_count(threads), listener)
@@ -271,7 +271,8 @@ class Problem:
         return certified_of(json.loads(answer))
 
     def check(self, certificate: Certificate | str) -> Accepted:
-        """What a certificate proves; raises `RejectedError` where it proves nothing."""
+        """What a certificate proves; raises `RejectedError` where it proves nothing. One of contact
+        states under loads is for `LoadPath.check`."""
         return accepted_of(json.loads(self._native.check(text_of(certificate))))
 
     def __reduce__(self) -> tuple[Any, tuple[str]]:

@@ -3,8 +3,10 @@
 use crate::contact::Contacts;
 use crate::watched::watched;
 use crate::{MceipError, NativeProblem, NotCertifiedError, Triplets};
-use crate::{matrix, number, refused, warnings};
+use crate::{matrix, number, refused, rejection, warnings};
 use mceip::{Error, FrictionGrid, FrictionGridError, LoadPath, Loads, Rational};
+use mceip_check::certificate::EquilibriumCertificate;
+use mceip_check::check_equilibrium;
 use mceip_model::file::LoadsFile;
 use mceip_model::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
 use pyo3::prelude::*;
@@ -149,6 +151,42 @@ impl NativeLoadPath {
             Err(Error::Model(mceip::ModelError::NothingSlips)) => Ok(None),
             Err(error) => Err(refused(error)),
         }
+    }
+
+    /// The states inside its stretches, analysed: `analyses` of `mceip path --json` and in words.
+    fn analyze(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<(String, String)> {
+        let analysed = watched(py, progress.as_ref(), |cancel, hear| {
+            self.0.analyze().cancel(cancel).on_progress(hear).run()
+        })?;
+        let analysed = analysed.map_err(refused)?;
+        Ok((analysed.to_json().to_string(), analysed.text()))
+    }
+
+    /// For each degree of freedom of the body that of its problems; `None` for a held one.
+    fn places(&self) -> Vec<Option<usize>> {
+        self.0.loads().body().places().to_vec()
+    }
+
+    /// The verdict of the checker on the certificate of an equilibrium: the friction, the amounts of
+    /// the steps and the contact states, as text.
+    fn check(
+        &self,
+        py: Python<'_>,
+        text: &str,
+    ) -> PyResult<(String, Vec<String>, Vec<&'static str>)> {
+        let read = EquilibriumCertificate::from_json(text);
+        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
+
+        let body = self.0.loads().body();
+        let verdict = py.detach(|| check_equilibrium(body, &certificate));
+        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
+        let amounts = accepted.amounts.iter().map(ToString::to_string);
+        let states = accepted.states.iter().map(|state| state.directed_word());
+        Ok((
+            accepted.friction.to_string(),
+            amounts.collect(),
+            states.collect(),
+        ))
     }
 
     /// The own critical friction of its loads, as that of `mceip path --own-critical --json` and in

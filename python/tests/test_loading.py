@@ -73,14 +73,68 @@ def test_states_are_certified_and_anybody_can_check_them(tmp_path):
         assert run.returncode == 0, run
 
 
-def test_the_own_critical_friction_is_that_of_the_book():
+def test_certificates_of_contact_states_are_checked_here_too():
+    body, steps, friction = example_body()
+    path = body.path(steps, friction)
+    text = path.stretches[5].certify()
+
+    proved = path.check(text)
+
+    assert proved.friction == Fraction("0.8")
+    assert proved.amounts[0] == 1 and 0 < proved.amounts[1] < 1
+    assert list(proved.states) == list(path.stretches[5].states)
+    forged = json.loads(text)
+    forged["candidates"][0] = {"state": "free"}
+    with pytest.raises(mceip.RejectedError):
+        path.check(json.dumps(forged))
+    with pytest.raises(mceip.MceipError, match="mceip-equilibrium/1"):
+        path.check(path.stretches[5].problem.complete().certificate)
+
+
+def test_a_path_says_which_of_its_states_diverge():
+    body, steps, friction = own_critical_body()
+    path = body.path(steps, "1.5")
+
+    analysis = path.analyze()
+
+    assert [state.divergence for state in analysis.states] == [
+        "absent", "absent", "absent", "present", "absent"]
+    (first,) = analysis.diverging
+    assert first.stretch == 3
+    assert 1.118 < float(first.absent_below) < float(first.present_at.upper) < 1.1181
+    assert "MEETS AN EQUILIBRIUM THAT CAN DIVERGE" in str(analysis)
+    assert "stretches that can diverge: 3" in repr(analysis)
+
+
+def test_modes_are_over_all_degrees_of_freedom_of_the_body():
+    # The mass point of the README beside a degree of freedom that is held.
+    stiffness = np.array([[4.0, 1.0, -1.0], [1.0, 2.0, 1.5], [-1.0, 1.5, 2.0]])
+    body = mceip.Body(stiffness, np.eye(3), candidates=[mceip.Candidate(1, 2)], held=[0])
+    press = mceip.Step("press", forces={2: 4})
+    pull = mceip.Step("pull", forces={1: 5})
+    path = body.path([press, pull], "1")
+
+    analysis = path.stretches[-1].analyze(friction="1.5", samples=0)
+
+    (mode,) = analysis.modes
+    assert mode.v == pytest.approx([0.0, 1.0, 0.0])
+    assert path.stretches[-1].problem.complete().is_complete
+
+
+def own_critical_body():
+    """The body and the steps of spec/examples/own-critical.json."""
     with open(os.path.join(EXAMPLES, "own-critical.json"), encoding="utf-8") as file:
         given = json.load(file)
     system = given["system"]
     candidates = [mceip.Candidate(**candidate) for candidate in system["candidates"]]
     body = mceip.Body(system["stiffness"], system["mass"], candidates=candidates)
     steps = [mceip.Step(step["name"], forces=dict(step["forces"])) for step in given["steps"]]
-    path = body.path(steps, str(system["friction"]))
+    return body, steps, str(system["friction"])
+
+
+def test_the_own_critical_friction_is_that_of_the_book():
+    body, steps, friction = own_critical_body()
+    path = body.path(steps, friction)
 
     own = path.own_critical("1.1", "1.2", parts=2)
 

@@ -40,15 +40,6 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
 pub(crate) const LETTERS: &str = "nodes in order: . stick, < impending slip against its tangent (S \
     = 1), > along it (S = -1), o free, z in contact without reaction";
 
-/// A contact state, with the direction in which a candidate slips along its tangent.
-pub(crate) fn state_word(state: ContactState) -> &'static str {
-    match state {
-        ContactState::Slip { sign } if sign > 0 => "slip-",
-        ContactState::Slip { .. } => "slip+",
-        other => other.word(),
-    }
-}
-
 /// Why the path ends.
 pub(crate) fn end_text(path: &LoadingPath, candidates: &[Particle]) -> String {
     match &path.end {
@@ -241,8 +232,8 @@ fn event_json(event: &Event) -> Value {
     for change in &event.changes {
         changes.push(json!({
             "node": change.node + 1,
-            "from": state_word(change.from),
-            "to": state_word(change.to),
+            "from": change.from.directed_word(),
+            "to": change.to.directed_word(),
         }));
     }
 
@@ -283,5 +274,5 @@ pub(crate) fn amount_text(at: &Equilibrium) -> String {
 
 /// The states in words.
 pub(crate) fn states_json(states: &[ContactState]) -> Vec<&'static str> {
-    states.iter().map(|state| state_word(*state)).collect()
+    states.iter().map(|state| state.directed_word()).collect()
 }

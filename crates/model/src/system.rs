@@ -44,6 +44,15 @@ impl ContactState {
         }
     }
 
+    /// The word with the direction of slip along the tangent, as in tables of contacts.
+    pub fn directed_word(self) -> &'static str {
+        match self {
+            ContactState::Slip { sign } if sign > 0 => "slip-",
+            ContactState::Slip { .. } => "slip+",
+            other => other.word(),
+        }
+    }
+
     /// The letter used in pictures of many candidates: `<` impending slip against the tangent
     /// (S = 1), `>` along it.
     pub fn letter(self) -> char {
