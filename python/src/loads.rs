@@ -167,8 +167,8 @@ impl NativeLoadPath {
         self.0.loads().body().places().to_vec()
     }
 
-    /// The verdict of the checker on the certificate of an equilibrium: the friction, the amounts of
-    /// the steps and the contact states, as text.
+    /// The verdict of the checker on the certificate of an equilibrium: the friction, the amounts
+    /// of the steps and the contact states, as text.
     fn check(
         &self,
         py: Python<'_>,

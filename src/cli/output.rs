@@ -366,8 +366,8 @@ impl Folder {
         }
     }
 
-    /// Removes the files `stem-NUMBER.json`, and of a proof both with its equilibrium, but for these
-    /// numbers: those of an earlier run.
+    /// Removes the files `stem-NUMBER.json`, and of a proof both with its equilibrium, but for
+    /// these numbers: those of an earlier run.
     pub(super) fn keep_numbered(&self, stem: &str, kept: &[usize]) -> Result<(), CliError> {
         let failed = |error: &std::io::Error| CliError::write(self.path.display(), error);
         for entry in std::fs::read_dir(&self.path).map_err(|e| failed(&e))? {

@@ -420,6 +420,7 @@ impl PathOutcome<'_> {
             "intervals": self.followed.to_json(),
             "end": self.followed.end_text(),
             "slides": self.path().slides(),
+            "held_by_rounding": self.followed.held_by_rounding(),
             "interrupted": self.is_interrupted,
         });
         if let Some(certified) = &self.certified {

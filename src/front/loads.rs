@@ -197,6 +197,7 @@ impl<'a> FollowPath<'a> {
         Ok(Some(LoadPath {
             loads: self.loads.clone(),
             is_in_doubles: self.is_in_doubles,
+            held_by_rounding: contact.held_by_rounding(&path),
             contact,
             path,
             continuations,
@@ -241,6 +242,7 @@ pub struct LoadPath {
     contact: Contact,
     path: LoadingPath,
     continuations: Vec<RateSolutions>,
+    held_by_rounding: Vec<usize>,
 }
 
 impl LoadPath {
@@ -362,6 +364,12 @@ impl LoadPath {
     /// `mceip path` prints.
     pub fn text(&self) -> String {
         say::path::text_of(self)
+    }
+
+    /// The stretches in whose states nothing but the last digits of K holds the body: its path is
+    /// exact, and worth nothing there. In doubles.
+    pub fn held_by_rounding(&self) -> &[usize] {
+        &self.held_by_rounding
     }
 
     /// Why it ends, in words.

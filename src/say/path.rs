@@ -21,12 +21,18 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     let table = table_of(path, &followed.loads().step_names(), candidates);
     let end = end_text(path, candidates);
 
+    let loose = loose_text(followed.held_by_rounding());
+    let verified = if path.stretches.is_empty() {
+        ""
+    } else {
+        "every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
+         ends of each stretch; "
+    };
     let mut out = format!(
         "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
-         {warnings}{LETTERS}\n\
+         {warnings}{loose}{LETTERS}\n\
          {table}\n\
-         every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
-         ends of each stretch; {end}\n"
+         {verified}{end}\n"
     );
     out += &continuations_text(followed.continuations());
     if followed.is_in_doubles() {
@@ -35,6 +41,26 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
 
     out
 }
+
+/// Where the body is held by rounding alone, and what to look at.
+pub(crate) fn loose_text(stretches: &[usize]) -> String {
+    if stretches.is_empty() {
+        return String::new();
+    }
+
+    format!(
+        "WARNING: in the contact states of stretch {} nothing but the last digits of the stiffness \
+         holds the body: it can move without force, and what is computed there means nothing. \
+         {LOOK_AT}\n",
+        runs(stretches)
+    )
+}
+
+/// What makes a body fly off, or its path end at once.
+const LOOK_AT: &str = "Look at the supports of the body, at the signs of the loads, at the \
+    normals of the candidates (normal_direction), at which degree of freedom is tangential and \
+    which normal, and at the order of the steps: a body that only contact holds has to be pressed \
+    on first.";
 
 /// What the letters mean by which contact states are shown.
 pub(crate) const LETTERS: &str = "nodes in order: . stick, < impending slip against its tangent (S \
@@ -50,11 +76,17 @@ pub(crate) fn end_text(path: &LoadingPath, candidates: &[Particle]) -> String {
         LoadingPathEnd::AllApplied => "all loads are applied".into(),
         LoadingPathEnd::Interrupted => "INTERRUPTED".into(),
         LoadingPathEnd::NoContinuation { causes, why } => {
+            // A step that cannot begin is a mistake in the data more often than mechanics.
+            let remedy = if causes.is_empty() {
+                format!(". {LOOK_AT}")
+            } else {
+                String::new()
+            };
             let causes = causes_text(causes, candidates);
             if why.is_proved() {
-                format!("the quasi-static path ends ({causes}): {why}")
+                format!("the quasi-static path ends ({causes}): {why}{remedy}")
             } else {
-                format!("UNDECIDED ({causes}): {why}")
+                format!("UNDECIDED ({causes}): {why}{remedy}")
             }
         }
     }

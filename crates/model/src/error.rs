@@ -269,7 +269,7 @@ pub enum ModelError {
         problem: String,
     },
     /// The `format` field is missing or names another version.
-    #[error("expected format {expected:?}, got {got}")]
+    #[error("expected format {expected:?}, got {got}{}", reader_of(got))]
     Format {
         /// The version this program reads.
         expected: &'static str,
@@ -351,5 +351,16 @@ fn shortened(v: &Rational) -> String {
         text
     } else {
         format!("{}... ({} characters)", &text[..MOST], text.len())
+    }
+}
+
+/// Which command reads a file of another format; `got` is what its field says, in quotes.
+fn reader_of(got: &str) -> &'static str {
+    match got.trim_matches('"') {
+        "mceip-problem/1" => ": `mceip analyze`, `complete` and `solve` read problems",
+        "mceip-loads/1" => ": `mceip path` reads bodies under loads",
+        "mceip-certificate/1" => ": `mceip check PROBLEM CERTIFICATE` reads it beside its problem",
+        "mceip-equilibrium/1" => ": `mceip check LOADS CERTIFICATE` reads it beside its loads",
+        _ => "",
     }
 }

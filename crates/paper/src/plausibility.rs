@@ -8,6 +8,7 @@
 //! | signs | K cancels along e = (1, ..., 1), row by row, M adds up | K and M exchanged |
 //! | balance of rows | \|K e\| is zero but near supports | entries of few digits |
 //! | units | the lowest frequency is between 1e-2 and 1e6 | units that do not fit |
+//! | friction | mu is at most 5 | per cent, an angle |
 //! | masses of a node | one diagonal entry of M for both its dofs | numbers from 1 |
 //! | reactions | K u at the contacts, where u is given | numbers from 1, another step or sign |
 //! | other forces | K u at dofs of no particle | a contact that is missing |
@@ -24,6 +25,7 @@ use crate::frequencies::lowest_frequencies;
 use crate::lines::shown;
 use crate::tolerance::{
     BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH, USUAL_FREQUENCIES,
+    USUAL_FRICTION,
 };
 use mceip_exact::{Sparse, from_f64, to_f64, upper_decimal};
 use mceip_model::{ContactState, Coordinates, Particle, System};
@@ -82,6 +84,9 @@ impl Plausibility {
             }
         }
 
+        if let Some(friction) = input.system.friction() {
+            found.look_at_friction(to_f64(friction));
+        }
         found.look_at_cones(input);
         if let Some(displacements) = input.displacements {
             let forces = stiffness.times(displacements);
@@ -180,6 +185,17 @@ impl Plausibility {
             "the lowest frequency is {lowest} cycles per unit of time, {unusual}: K and M may be \
              in units that do not fit (tonnes belong to N and mm, kg to N and m)"
         ));
+    }
+
+    /// Dry contacts have coefficients of friction below 2, and no units.
+    fn look_at_friction(&mut self, friction: f64) {
+        if friction > USUAL_FRICTION {
+            let friction = with_five_digits(friction);
+            self.warnings.push(format!(
+                "the coefficient of friction is {friction}, above {USUAL_FRICTION}: it is the \
+                 tangent of the angle of friction, not the angle and not per cent"
+            ));
+        }
     }
 
     /// Both degrees of freedom of a node carry its mass. Where they do not, and those numbered one

@@ -55,6 +55,10 @@ pub(crate) const EQUAL_MASSES: f64 = 1e-9;
 /// mm is wrong by 1e12, its frequencies by 1e6; kg in place of t makes 32, which no bound sees.
 pub(crate) const USUAL_FREQUENCIES: [f64; 2] = [1e-2, 1e6];
 
+/// Highest coefficient of friction that is not asked about. Basis: rubber on rough ground has 2,
+/// and the least per cent or angle in degrees that anybody means is above 5.
+pub(crate) const USUAL_FRICTION: f64 = 5.0;
+
 /// How far a tangent may be turned from the line through neighbouring nodes in contact, in degrees.
 /// Basis: on an arc of eight elements to the quarter circle a chord is turned by 6 degrees from the
 /// tangent at its end. An angle with the wrong sign is wrong by twice its size, exchanged

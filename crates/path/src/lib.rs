@@ -31,6 +31,7 @@
 //! | `loading_path`, `stretch` | the result |
 //! | `pencils` | the condensed pencil of a set of states |
 //! | `unique` | is the path the only one? |
+//! | `loose` | where rounding alone holds the body, in doubles |
 #![deny(clippy::float_arithmetic)]
 
 mod check;
@@ -41,6 +42,7 @@ mod line;
 mod linear;
 mod load_steps;
 mod loading_path;
+mod loose;
 mod pencils;
 mod propose;
 mod rates;

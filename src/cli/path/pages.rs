@@ -17,7 +17,9 @@ use crate::picture::{
     Section, Threshold, ThresholdColumn, body_picture, branch_picture, path_picture,
     threshold_picture,
 };
-use crate::say::path::{LETTERS, amount_text, causes_text, continuations_text, of_which_body};
+use crate::say::path::{
+    LETTERS, amount_text, causes_text, continuations_text, loose_text, of_which_body,
+};
 use crate::say::path_analysis::{HEADER, rows_of, verdict_text};
 use crate::say::stretches::stretch_cells;
 use crate::{LoadPath, OwnCritical, PathAnalysis};
@@ -240,7 +242,7 @@ impl Shown<'_> {
 
     /// The report.
     pub(super) fn report(&self) -> Result<ReportPage, ModelError> {
-        let path = Section {
+        let mut path = Section {
             title: "Loading path".into(),
             content: vec![
                 self.path_chart().into_figure(),
@@ -249,6 +251,10 @@ impl Shown<'_> {
                 Content::Paragraph(of_which_body(self.followed.is_in_doubles()).into()),
             ],
         };
+        if !self.followed.held_by_rounding().is_empty() {
+            let warning = loose_text(self.followed.held_by_rounding());
+            path.content.insert(0, Content::Warning(warning));
+        }
 
         let mut sections = vec![self.model_section()];
         sections.extend(self.own.map(own::section));
