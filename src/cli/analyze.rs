@@ -34,7 +34,7 @@ pub(super) struct Args {
     /// Problem file (mceip-problem/1) of a mechanical system; `mceip convert` makes one.
     file: PathBuf,
     /// Coefficient of friction instead of the file's (reactions in the file are then not used).
-    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MU", alias = "mu", allow_hyphen_values = true)]
     friction: Option<String>,
     /// Values of mu at which divergence is decided to find its ranges, evenly spread from the
     /// critical mu to twice the largest of it, the static thresholds and the mu asked for; 0 for

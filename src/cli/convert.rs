@@ -54,6 +54,7 @@ pub(super) struct Args {
     #[arg(
         long,
         value_name = "MU",
+        alias = "mu",
         allow_hyphen_values = true,
         required_unless_present = "loads"
     )]

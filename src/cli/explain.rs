@@ -84,7 +84,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 impl Entry {
     /// Is `term` this name, or one of several that stand in it between commas?
     ///
-    /// The prefix `Cover.` of a reason may be left out.
+    /// The prefix `Cover.` of a reason may be left out, and a plural may stand for the name.
     fn has_name(&self, term: &str) -> bool {
         let wanted = normal_form(term);
         let name = normal_form(&self.name);
@@ -92,7 +92,9 @@ impl Entry {
             return true;
         }
 
-        name.split(", ").any(|part| part == wanted)
+        let singular = wanted.strip_suffix('s');
+        name.split(", ")
+            .any(|part| part == wanted || Some(part) == singular)
     }
 }
 
@@ -130,7 +132,7 @@ fn rows(page: &Page) -> Vec<Entry> {
         let row = line.trim_start_matches("| ").trim_end_matches(" |");
         if let Some((name, meaning)) = row.split_once(" | ") {
             list.push(Entry {
-                name: name.to_string(),
+                name: plain(name),
                 meaning: format!("  {}", plain(meaning)),
                 path: page.path,
             });
@@ -201,7 +203,7 @@ fn departures(page: &Page) -> Vec<Entry> {
 /// Markdown without bold and code marks, and of a link its text.
 fn plain(markdown: &str) -> String {
     let text = markdown.replace("**", "").replace('`', "");
-    let text = text.replace("\\|", "|");
+    let text = text.replace("\\|", "|").replace("\\*", "*");
 
     let mut out = String::new();
     let mut rest = text.as_str();
@@ -261,4 +263,80 @@ fn suggestions(entries: &[Entry], term: &str) -> String {
         return "mceip explain lists the names".to_string();
     }
     format!("near it are: {}", near.join("; "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// Words of headings that mean what they say.
+    const PLAIN: [&str; 17] = [
+        "assembly",
+        "begins",
+        "cells",
+        "change",
+        "closed",
+        "difference",
+        "found",
+        "from",
+        "ordering",
+        "paper",
+        "predicted",
+        "refused",
+        "seconds",
+        "state",
+        "time",
+        "to",
+        "where",
+    ];
+
+    /// The headings of tables in all source files of a folder.
+    fn headings(folder: &Path, found: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                headings(&path, found);
+                continue;
+            }
+            let source = std::fs::read_to_string(&path).unwrap();
+            let source = source.split("#[cfg(test)]").next().unwrap_or_default();
+            for marker in [
+                "Table::new(&[",
+                "header = [",
+                "header = vec![",
+                "HEADER: [&str;",
+            ] {
+                for list in source.split(marker).skip(1) {
+                    let list = list.trim_start_matches(|c: char| " 0123456789]=[".contains(c));
+                    let list = list.split(']').next().unwrap_or_default();
+                    found.extend(list.split('"').skip(1).step_by(2).map(String::from));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_heading_of_a_table_is_explained() {
+        let mut found = Vec::new();
+        headings(
+            &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
+            &mut found,
+        );
+        assert!(found.len() > 60, "{found:?}");
+
+        let entries = entries();
+        let is_known =
+            |name: &str| PLAIN.contains(&name) || entries.iter().any(|entry| entry.has_name(name));
+        // One of its words, or two neighbours, have to be known.
+        let is_explained = |heading: &String| {
+            let words: Vec<&str> = heading.split([' ', '/', ',', '(']).collect();
+            let mut pairs = words.windows(2).map(|pair| pair.join(" "));
+            let is_empty = heading.is_empty() || heading == "#";
+            let by_word = words.iter().any(|word| is_known(word));
+            is_empty || is_known(heading) || by_word || pairs.any(|pair| is_known(&pair))
+        };
+        found.retain(|heading| !is_explained(heading));
+        assert!(found.is_empty(), "{found:?}");
+    }
 }

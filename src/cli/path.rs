@@ -39,7 +39,7 @@ pub(super) struct Args {
     /// The body and its loads (`mceip-loads/1`; `-` for stdin).
     file: PathBuf,
     /// Another coefficient of friction than that of the file.
-    #[arg(long, allow_hyphen_values = true)]
+    #[arg(long, alias = "friction", allow_hyphen_values = true)]
     mu: Option<String>,
     /// Condense in doubles instead of exactly: fast for large bodies and for matrices in doubles.
     /// The path is then, exactly, that of a body which differs from the given one by rounding.

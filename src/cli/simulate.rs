@@ -25,7 +25,7 @@ pub(super) struct Args {
     /// Problem file (mceip-problem/1) of a mechanical system with mass.
     file: PathBuf,
     /// Coefficient of friction instead of the file's (reactions in the file are then not used).
-    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MU", alias = "mu", allow_hyphen_values = true)]
     friction: Option<String>,
     /// Steps of a run; each is repeated with twice as many to state its error.
     #[arg(long, default_value_t = 400)]
