@@ -76,7 +76,6 @@ Section Checker.
 
 Local Open Scope Z_scope.
 
-Definition times c (row : sparse_row) : sparse_row := [seq (e.1, c * e.2) | e <- row].
 
 Section Expansion.
 
@@ -87,8 +86,8 @@ Notation q := (anchor_center a).2.
 Notation ns := (size (slip Q)).
 Notation nf := (size (free Q)).
 
-Definition row_0 i := times q (row_a Q i) ++ times p (row_b Q i).
-Definition row_1 i := times q (row_b Q i).
+Definition row_0 i := times_row q (row_a Q i) ++ times_row p (row_b Q i).
+Definition row_1 i := times_row q (row_b Q i).
 
 Definition ff_block (row : nat -> sparse_row) :=
   let place := places (free Q) in [seq restrict place (row i) | i <- free Q].
@@ -273,23 +272,10 @@ Definition D_at d i j := shifted_entry d (slip_at i) (slip_at j).
 (* The exact condensed matrix, times q. *)
 Definition condensed_family d := condensed_at nf (F_at d) (G_at d) (H_at d) (D_at d).
 
-Lemma lookup_times c row j : toR (lookup (times c row) j) = toR c * toR (lookup row j) :> R.
-Proof.
-elim: row => [|e row IH] /=; first by rewrite toR0 mulr0.
-by case: eqP => _ //; rewrite !toRD toRM IH mulrDr.
-Qed.
-
-Lemma lookup_both row1 row2 j :
-  toR (lookup (row1 ++ row2) j) = toR (lookup row1 j) + toR (lookup row2 j) :> R.
-Proof.
-elim: row1 => [|e row IH] /=; first by rewrite toR0 add0r.
-by case: eqP => _ //; rewrite !toRD IH addrA.
-Qed.
-
 Lemma shifted_entryE d t i j : toR q * t = toR p + toR q * d ->
   shifted_entry d i j = toR q * (a_entry R Q i j + t * b_entry R Q i j).
 Proof.
-move=> td; rewrite /shifted_entry /row_0 /row_1 lookup_both !lookup_times.
+move=> td; rewrite /shifted_entry /row_0 /row_1 lookup_cat !lookup_times toRD !toRM.
 rewrite -/(a_entry R Q i j) -/(b_entry R Q i j); move: (a_entry _ _ _ _) (b_entry _ _ _ _) => x y.
 have -> : toR q * (x + t * y) = toR q * x + (toR q * t) * y by ring.
 by rewrite td; ring.
@@ -390,14 +376,14 @@ Proof. by rewrite mem_iota. Qed.
 Lemma F_symmetric d : symmetric_on nf (F_at d).
 Proof.
 move=> i k /in_free Hi /in_free Hk; rewrite /F_at /shifted_entry /row_0 /row_1.
-rewrite !lookup_both !lookup_times -!lookup_ff //.
+rewrite !lookup_cat !lookup_times !toRD !toRM -!lookup_ff //.
 by rewrite (bounded_lookup_sym bounded_a Hi Hk) (bounded_lookup_sym bounded_b Hi Hk).
 Qed.
 
 Lemma F1_symmetric :
   symmetric_on nf (fun i k => toR (lookup (row_1 Q a (free_at i)) (free_at k)) : R).
 Proof.
-move=> i k /in_free Hi /in_free Hk; rewrite /row_1 !lookup_times -!lookup_ff //.
+move=> i k /in_free Hi /in_free Hk; rewrite /row_1 !lookup_times !toRM -!lookup_ff //.
 by rewrite (bounded_lookup_sym bounded_b Hi Hk).
 Qed.
 

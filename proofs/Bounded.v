@@ -32,6 +32,17 @@ Definition sparse_row := seq (nat * Z).
 Definition lookup (row : sparse_row) (j : nat) : Z :=
   foldr (fun entry sum => if entry.1 == j then (entry.2 + sum)%Z else sum) 0%Z row.
 
+Definition times_row (c : Z) (row : sparse_row) : sparse_row := [seq (e.1, c * e.2)%Z | e <- row].
+
+Lemma lookup_times c row j : lookup (times_row c row) j = (c * lookup row j)%Z.
+Proof.
+elim: row => [|e row IH] /=; first by rewrite Z.mul_0_r.
+by case: eqP => _; rewrite IH // Z.mul_add_distr_l.
+Qed.
+
+Lemma lookup_cat row row' j : lookup (row ++ row') j = (lookup row j + lookup row' j)%Z.
+Proof. by elim: row => //= e row IH; case: eqP => _; rewrite IH // Z.add_assoc. Qed.
+
 (* c, d, m and L: c S - d I is covered by m L L'. *)
 Record form_bound := FormBound {
   bound_times : Z;
@@ -49,7 +60,7 @@ Definition spread (row : sparse_row) : seq Z :=
 
 (* Row i of c S - d I. *)
 Definition shifted_row c d i (row : sparse_row) : sparse_row :=
-  (i, - d) :: [seq (e.1, c * e.2) | e <- row].
+  (i, - d) :: times_row c row.
 
 (* An entry (j, _) of row i is compared with entry i of row j. *)
 Definition symmetric_rows_sparse (rows : seq sparse_row) :=
@@ -84,10 +95,7 @@ Qed.
 Lemma lookup_shifted c d i row j :
   lookup (shifted_row c d i row) j = (c * lookup row j - (if i == j then d else 0))%Z.
 Proof.
-have -> : (c * lookup row j)%Z = lookup [seq (e.1, c * e.2)%Z | e <- row] j.
-  elim: row => [|e row IH] /=; first by rewrite Z.mul_0_r.
-  by rewrite -IH; case: eqP => // _; rewrite Z.mul_add_distr_l.
-by rewrite /=; case: eqP => _; [rewrite Z.add_comm | rewrite Z.sub_0_r].
+by rewrite /= lookup_times; case: eqP => _; [rewrite Z.add_comm | rewrite Z.sub_0_r].
 Qed.
 
 Lemma all_from_intro T (d : T) (f : nat -> T -> bool) l a :

@@ -137,6 +137,14 @@ Definition check_claim :=
 
 End Checker.
 
+Lemma columns_in_rows Q : columns_in_order Q -> forall i,
+  all (fun e => e.1 < order Q)%N (row_a Q i) /\ all (fun e => e.1 < order Q)%N (row_b Q i).
+Proof.
+case/andP=> /allP ca /allP cb i; rewrite /row_a /row_b; split.
+  by have [l|l] := ltnP i (size (rows_a Q)); [apply/ca/mem_nth | rewrite nth_default].
+by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
+Qed.
+
 Section Sound.
 
 Variable R : rcfType.
@@ -345,17 +353,9 @@ move=> range; rewrite (sum_lookup _ range); elim: row {range} => [|e row IH] /=.
 by rewrite big_cons eval_add eval_scale IH.
 Qed.
 
-Lemma rows_range i :
-  all (fun e => e.1 < order Q)%N (row_a Q i) /\ all (fun e => e.1 < order Q)%N (row_b Q i).
-Proof.
-have [_ /andP[/allP ca /allP cb] _ _] := claim_parts; rewrite /row_a /row_b; split.
-  by have [l|l] := ltnP i (size (rows_a Q)); [apply/ca/mem_nth | rewrite nth_default].
-by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
-Qed.
-
 Lemma reaction_polyE i : eval (reaction_poly Q k i) t = reaction Q t x_at i.
 Proof.
-have [ra rb] := rows_range i.
+have [_ cols _ _] := claim_parts; have [ra rb] := columns_in_rows cols i.
 rewrite /reaction_poly eval_add /= -/(eval _ t) toR0 add0r !combine_rowE //.
 rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
 by rewrite /a_entry /b_entry mulrDl mulrA.

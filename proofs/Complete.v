@@ -284,11 +284,7 @@ Lemma limit_sound r k x : check_limit Q r k x -> exists2 xs : nat -> R,
 Proof.
 case/and5P=> cols xk lt_k /allP free0 /allP slip0; have [wf con pos shp _] := parts.
 pose X i : R := toR (nth 0%Z x i).
-have [ca cb] : (forall i, all (fun e => e.1 < order Q)%N (row_a Q i)) /\
-               (forall i, all (fun e => e.1 < order Q)%N (row_b Q i)).
-  case/andP: cols => /allP ca /allP cb; split=> i; rewrite /row_a /row_b.
-    by have [l|l] := ltnP i (size (rows_a Q)); [apply/ca/mem_nth | rewrite nth_default].
-  by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
+have ca i := (columns_in_rows cols i).1; have cb i := (columns_in_rows cols i).2.
 
 (* The free part of X is what the free rows demand. *)
 have free_X : forall k', k' \in iota 0 (size (free Q)) ->

@@ -26,7 +26,7 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence Elimination.
 From Mceip Require Export Bounded.
 
 Set Implicit Arguments.
@@ -239,29 +239,15 @@ Lemma F_bounded (z : nat -> R) :
   toR (bound_c w) * (\sum_(i <- free_ix) \sum_(k <- free_ix) z i * F i k * z k).
 Proof. exact: bounded_rows_sound bounded z. Qed.
 
-Lemma F_injective (z : nat -> R) :
-  (forall i, i \in free_ix -> \sum_(k <- free_ix) F i k * z k = 0) ->
-  forall k, k \in free_ix -> z k = 0.
-Proof.
-move=> Fz k Hk; have := F_bounded z.
-rewrite [X in _ <= _ * X]sum_zero ?mulr0 => [|i Hi]; last first.
-  by under eq_bigr do rewrite -mulrA; rewrite -mulr_sumr Fz // mulr0.
-rewrite pmulr_rle0 ?d_gt0 // => squares.
-apply/eqP; rewrite -sqrf_eq0 eq_le sqr_ge0 andbT; apply: le_trans squares.
-by rewrite (bigD1_seq k) ?iota_uniq //= ler_addl sumr_ge0 // => j _; rewrite sqr_ge0.
-Qed.
+Notation s := (toR (bound_d w) / toR (bound_c w) : R).
 
-(* F^-1 b *)
-Definition solve (b : nat -> R) :=
-  at_index (K := free_ix) (invmx (block free_ix F) *m \col_i b (nth 0%N free_ix i)).
+Let s0 : 0 < s.
+Proof. by rewrite divr_gt0 ?c_gt0 ?d_gt0. Qed.
 
-Lemma solveP b i : i \in free_ix -> \sum_(k <- free_ix) F i k * solve b k = b i.
+Let below : bounded_below (free_count D) F s.
 Proof.
-have U := iota_uniq 0 (free_count D).
-have inj : injective_on free_ix F by move=> z; apply: F_injective.
-have unit_F : block free_ix F \in unitmx by rewrite unitmxE unitfE block_det.
-move=> /(nthP 0%N)[i' li <-]; rewrite -(block_mul U F _ (Ordinal li)).
-by rewrite mulKVmx // mxE.
+move=> z; rewrite -(ler_pmul2l c_gt0) mulrA [_ * s]mulrC divfK ?gt_eqF ?c_gt0 //.
+exact: F_bounded.
 Qed.
 
 (* |F^-1 r|_max <= (c/d) |r|_1 *)
@@ -288,9 +274,10 @@ have -> : \sum_(k <- free_ix) z i * F i k * z k = z i * r i.
 by apply: le_trans (ler_norm _) _; rewrite normrM mulrC ler_wpmul2l // largest_m.
 Qed.
 
-(* The exact condensed pencil, its rows multiplied by scale_i u^2. *)
-Definition inverse_fs j := solve (fun i => at_ (fs D) j i).
+(* F^-1 G *)
+Definition inverse_fs j := solve (free_count D) F (at_ (fs D) j).
 
+(* The exact condensed pencil, its rows multiplied by scale_i u^2. *)
 Definition condensed_entry (sf ss : matrix) i j : R :=
   scale_of i * u ^+ 2 *
   (toR (entry ss i j) - \sum_(k <- free_ix) at_ sf i k * inverse_fs j k).
@@ -338,7 +325,7 @@ pose L k : R := toR (nth 0%Z ll k); pose Rr k : R := toR (nth 0%Z rr k).
 have Fz k : k \in free_ix -> \sum_(k' <- free_ix) F k k' * z k' = Rr k.
   move=> Hk; rewrite /Rr residual_columnE //; under eq_bigr do rewrite mulrBr mulrCA.
   rewrite sumrB -mulr_sumr; congr (_ * _ - _).
-  exact: (solveP (fun i => at_ (fs D) j i)).
+  exact: (solveP s0 below (at_ (fs D) j)).
 
 (* The error is scale l' z. *)
 have error : condensed_entry sf ss i j -
@@ -404,21 +391,7 @@ Definition free_part xs k := - \sum_(j <- slip_ix) inverse_fs j k * xs j.
 Lemma free_rows_vanish (xf xs : nat -> R) :
   (forall i, i \in free_ix -> free_row xf xs i = 0) <->
   (forall k, k \in free_ix -> xf k = free_part xs k).
-Proof.
-have F_part i : i \in free_ix ->
-    \sum_(k <- free_ix) F i k * free_part xs k = - \sum_(j <- slip_ix) at_ (fs D) j i * xs j.
-  move=> Hi; rewrite /free_part; under eq_bigr do rewrite mulrN mulr_sumr.
-  rewrite sumrN exchange_big; congr (- _); apply: eq_bigr => j _.
-  under eq_bigr do rewrite mulrA; rewrite -mulr_suml; congr (_ * _).
-  exact: (solveP (fun i => at_ (fs D) j i)).
-
-split=> H.
-  move=> k Hk; apply/eqP; rewrite -subr_eq0; apply/eqP.
-  apply: (F_injective (z := fun k => xf k - free_part xs k)) Hk => i Hi.
-  under eq_bigr do rewrite mulrBr; rewrite sumrB F_part // opprK; exact: H.
-move=> i Hi; rewrite /free_row; under eq_big_seq => k Hk do rewrite H //.
-by rewrite F_part // addNr.
-Qed.
+Proof. exact: (Elimination.free_rows_vanish s0 below _ (fun i j => at_ (fs D) j i)). Qed.
 
 Lemma condensed_image t xf xs i :
   (forall k, k \in free_ix -> xf k = free_part xs k) -> i \in slip_ix ->

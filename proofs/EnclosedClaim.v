@@ -376,11 +376,7 @@ Proof. by have [_ [[? _ _ _] _]] := enclosed_parts; apply: support_active. Qed.
 
 Lemma columns i :
   all (fun e => e.1 < order Q)%N (row_a Q i) /\ all (fun e => e.1 < order Q)%N (row_b Q i).
-Proof.
-have [[_ /andP[/allP ca /allP cb] _ _] _] := enclosed_parts; rewrite /row_a /row_b; split.
-  by have [l|l] := ltnP i (size (rows_a Q)); [apply/ca/mem_nth | rewrite nth_default].
-by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
-Qed.
+Proof. by have [[_ cols _ _] _] := enclosed_parts; apply: columns_in_rows. Qed.
 
 (* V vanishes off J, Y and eps off K. *)
 Lemma center_elsewhere j : j \in variables -> j \notin J -> V j = 0.

@@ -103,7 +103,7 @@ move=> i_in [lo hi]; have at_e : t * toR e.2 = toR e.1 by apply/eqP; rewrite eq_
 move: i_in; rewrite mem_iota add0n => /= lt_i.
 rewrite /reaction mulr_sumr; apply: eq_bigr => j _.
 rewrite /a_entry /b_entry {1}/row_a {1}/row_b /= nth_nseq if_same /= toR0 mulr0 addr0.
-rewrite (nth_map 0%N) ?size_iota // nth_iota // add0n lookup_cat !lookup_multiple -at_e.
+rewrite (nth_map 0%N) ?size_iota // nth_iota // add0n lookup_cat toRD !lookup_multiple -at_e.
 by move: (toR _) (toR _) (toR _) (x j) => *; ring.
 Qed.
 

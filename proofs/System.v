@@ -116,7 +116,7 @@ Definition columns (row : sparse_row) : sparse_row :=
   pmap (fun e => omap (fun c => (c.1, c.2 * e.2)) (nth None table e.1)) row.
 
 Definition multiple c (row : sparse_row) : sparse_row :=
-  if c =? 0 then [::] else [seq (e.1, c * e.2) | e <- row].
+  if c =? 0 then [::] else times_row c row.
 
 (* The rows of a matrix at both degrees of freedom of a particle, with these factors. *)
 Definition rows_along (rows : nat -> sparse_row) p (factors : planar) :=
@@ -340,15 +340,7 @@ Lemma lookup_multiple c row j :
   toR (lookup (multiple c row) j) = toR c * toR (lookup row j) :> R.
 Proof.
 rewrite /multiple; case: Z.eqb_spec => [->|_]; first by rewrite toR0 mul0r.
-elim: row => [|e row IH] /=; first by rewrite toR0 mulr0.
-by case: eqP => _ //; rewrite !toRD toRM IH mulrDr.
-Qed.
-
-Lemma lookup_cat row1 row2 j :
-  toR (lookup (row1 ++ row2) j) = toR (lookup row1 j) + toR (lookup row2 j) :> R.
-Proof.
-elim: row1 => [|e row IH] /=; first by rewrite toR0 add0r.
-by case: eqP => _ //; rewrite !toRD IH addrA.
+by rewrite lookup_times toRM.
 Qed.
 
 (* Products of rows of K and M with v. *)
@@ -405,7 +397,7 @@ Proof. by rewrite mulr_sumr; apply: eq_bigr => j _; rewrite lookup_multiple mulr
 Lemma sum_cat row1 row2 (x : nat -> R) :
   \sum_(j <- variables) toR (lookup (row1 ++ row2) j) * x j =
   \sum_(j <- variables) toR (lookup row1 j) * x j + \sum_(j <- variables) toR (lookup row2 j) * x j.
-Proof. by rewrite -big_split; apply: eq_bigr => j _; rewrite lookup_cat mulrDl. Qed.
+Proof. by rewrite -big_split; apply: eq_bigr => j _; rewrite lookup_cat toRD mulrDl. Qed.
 
 Notation row_times row x := (\sum_(j <- variables) toR (lookup row j) * x j).
 

@@ -378,9 +378,7 @@ case: reverse expanded lo0 ok => expanded lo0 /and4P[] // _ /Z.eqb_spec lo_zero 
 case/and3P: (ok) => proper grain0 _; have t0 := value_gt0 O (lo0 isT) bt.
 case/and4P: dir => cols xk /allP free0 /allP slip0.
 pose X i : R := toR (nth 0%Z x i).
-have cb i : all (fun e => e.1 < order Q)%N (row_b Q i).
-  case/andP: cols => _ /allP cb; rewrite /row_b.
-  by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
+have cb i := (columns_in_rows cols i).2.
 have rowE i : reaction (swap_pencil Q) (toR (upper r).2 / toR (upper r).1) X i =
     toR (sparse_dot (row_b Q i) x) :> R.
   have -> : toR (upper r).2 = 0 :> R.

@@ -56,7 +56,7 @@ Variables (Q : pencil) (weight : seq Z).
 Local Open Scope Z_scope.
 
 Definition weighted (i : nat) (row : sparse_row) : sparse_row :=
-  [seq (e.1, nth 1 weight i * e.2) | e <- row].
+  times_row (nth 1 weight i) row.
 
 Definition may_move (r : region) : seq nat :=
   let columns := slip Q in
@@ -90,13 +90,6 @@ End Checker.
 Definition check_whole Q (r : region) (w : whole) :=
   check_end Q (whole_weights w) true (whole_negative w) (lower r) r (low_end w) &&
   check_end Q (whole_weights w) (0 <? (upper r).2)%Z (whole_negative w) (upper r) r (high_end w).
-
-Lemma lookup_weighted weight i row j :
-  lookup (weighted weight i row) j = (nth 1 weight i * lookup row j)%Z.
-Proof.
-elim: row => [|e row IH] /=; first by rewrite Z.mul_0_r.
-by case: eqP => _; rewrite IH // Z.mul_add_distr_l.
-Qed.
 
 Lemma member_form_sym negative c e i j :
   member_form negative c e i j = member_form negative c e j i.
@@ -166,7 +159,7 @@ Lemma member_entryE e i j :
   toR (member_entry e (i, (weighted weight i (row_a Q i), weighted weight i (row_b Q i)))
          (j, (weighted weight j (row_a Q j), weighted weight j (row_b Q j)))) = end_entry e i j.
 Proof.
-rewrite /member_entry !lookup_weighted toRD !toRM /end_entry /weight_of /a_entry /b_entry.
+rewrite /member_entry !lookup_times toRD !toRM /end_entry /weight_of /a_entry /b_entry.
 by move: (toR (nth _ _ _)) (toR (lookup _ _)) (toR (lookup _ _)) => *; ring.
 Qed.
 

@@ -2142,6 +2142,11 @@ let lookup row j =
     then Z.add (snd entry0) sum0
     else sum0) Big_int_Z.zero_big_int row
 
+(** val times_row : Big_int_Z.big_int -> sparse_row -> sparse_row **)
+
+let times_row c row =
+  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+
 type form_bound = { bound_times : Big_int_Z.big_int;
                     bound_at : Big_int_Z.big_int;
                     gram_times : Big_int_Z.big_int; gram_rows : late_row list }
@@ -2157,7 +2162,7 @@ let spread row =
     Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row **)
 
 let shifted_row c d i row =
-  (i, (Z.opp d)) :: (map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row)
+  (i, (Z.opp d)) :: (times_row c row)
 
 (** val symmetric_rows_sparse : sparse_row list -> bool **)
 
@@ -2408,8 +2413,7 @@ type member = int * (sparse_row * sparse_row)
     Big_int_Z.big_int list -> int -> sparse_row -> sparse_row **)
 
 let weighted weight i row =
-  map0 (fun e -> ((fst e),
-    (Z.mul (nth Big_int_Z.unit_big_int weight i) (snd e)))) row
+  times_row (nth Big_int_Z.unit_big_int weight i) row
 
 (** val may_move : pencil -> region -> int list **)
 
@@ -3170,9 +3174,7 @@ let columns table0 row =
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let multiple c row =
-  if Z.eqb c Big_int_Z.zero_big_int
-  then []
-  else map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+  if Z.eqb c Big_int_Z.zero_big_int then [] else times_row c row
 
 (** val rows_along :
     (int * Big_int_Z.big_int) option list -> (int -> sparse_row) ->
@@ -4726,21 +4728,16 @@ type local_leaf =
 | LocalAbsent of absence
 | LocalRoot of isolation * outcome
 
-(** val times : Big_int_Z.big_int -> sparse_row -> sparse_row **)
-
-let times c row =
-  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
-
 (** val row_0 : pencil -> anchor -> int -> (int * Big_int_Z.big_int) list **)
 
 let row_0 q a i =
-  cat (times (snd a.anchor_center) (row_a q i))
-    (times (fst a.anchor_center) (row_b q i))
+  cat (times_row (snd a.anchor_center) (row_a q i))
+    (times_row (fst a.anchor_center) (row_b q i))
 
 (** val row_1 : pencil -> anchor -> int -> sparse_row **)
 
 let row_1 q a i =
-  times (snd a.anchor_center) (row_b q i)
+  times_row (snd a.anchor_center) (row_b q i)
 
 (** val ff_block : pencil -> (int -> sparse_row) -> sparse_row list **)
 

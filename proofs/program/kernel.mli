@@ -697,6 +697,8 @@ type sparse_row = (int * Big_int_Z.big_int) list
 
 val lookup : sparse_row -> int -> Big_int_Z.big_int
 
+val times_row : Big_int_Z.big_int -> sparse_row -> sparse_row
+
 type form_bound = { bound_times : Big_int_Z.big_int;
                     bound_at : Big_int_Z.big_int;
                     gram_times : Big_int_Z.big_int; gram_rows : late_row list }
@@ -1508,8 +1510,6 @@ type local_leaf =
 | LocalDefinite of bool * factor * factor
 | LocalAbsent of absence
 | LocalRoot of isolation * outcome
-
-val times : Big_int_Z.big_int -> sparse_row -> sparse_row
 
 val row_0 : pencil -> anchor -> int -> (int * Big_int_Z.big_int) list
 
