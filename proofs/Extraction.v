@@ -21,6 +21,30 @@ From Mceip Require Import ZeroPencil ZeroComplete Points Rational Statement
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
+(* The functions of ExtrOcamlZBigInt, written where they are called. *)
+Extract Inlined Constant Z.add => "Big_int_Z.add_big_int".
+Extract Inlined Constant Z.sub => "Big_int_Z.sub_big_int".
+Extract Inlined Constant Z.mul => "Big_int_Z.mult_big_int".
+Extract Inlined Constant Z.opp => "Big_int_Z.minus_big_int".
+Extract Inlined Constant Z.abs => "Big_int_Z.abs_big_int".
+Extract Inlined Constant Z.max => "Big_int_Z.max_big_int".
+Extract Inlined Constant Z.eqb => "Big_int_Z.eq_big_int".
+
+(* Parts of the definitions of these in Coq.  The program does not call them. *)
+Extract Inlined Constant Pos.succ => "Big_int_Z.succ_big_int".
+Extract Inlined Constant Pos.add => "Big_int_Z.add_big_int".
+Extract Inlined Constant Pos.add_carry =>
+  "(fun p q -> Big_int_Z.(succ_big_int (add_big_int p q)))".
+Extract Inlined Constant Pos.mul => "Big_int_Z.mult_big_int".
+Extract Inlined Constant Pos.eqb => "Big_int_Z.eq_big_int".
+Extract Inlined Constant Pos.pred_double => "(fun p -> Big_int_Z.(pred_big_int (add_big_int p p)))".
+Extract Inlined Constant Z.double => "(fun z -> Big_int_Z.add_big_int z z)".
+Extract Inlined Constant Z.succ_double => "(fun z -> Big_int_Z.(succ_big_int (add_big_int z z)))".
+Extract Inlined Constant Z.pred_double => "(fun z -> Big_int_Z.(pred_big_int (add_big_int z z)))".
+Extract Inlined Constant Z.pos_sub => "Big_int_Z.sub_big_int".
+Extract Inlined Constant Z.pos_div_eucl => "Big_int_Z.quomod_big_int".
+Extract Inlined Constant Z.div_eucl => "Big_int_Z.quomod_big_int".
+
 Extract Inlined Constant plus => "Natural.add".
 Extract Inlined Constant minus => "Natural.sub".
 Extract Inlined Constant mult => "Natural.mul".

@@ -81,12 +81,20 @@ Definition cross_series n (X Y : seq matrix) : seq matrix :=
 
 Definition squares (x : seq Z) : Z := foldr (fun a s => a * a + s) 0 x.
 
-(* A number whose square is at least x >= 0: the root, or the root of the leading 128 bits.  Coq's
-   root takes time like the cube of the length. *)
-Definition root_up (x : Z) : Z :=
-  let k := Z.log2 x / 2 - 64 in
-  if k <=? 0 then Z.sqrt_up x
-  else let unit := 2 ^ k in Z.sqrt_up (x / (unit * unit) + 1) * unit.
+(* A number whose square is more than x >= 0: below 2^256 the least one, above it the double of one
+   for x / 4.  The digits say how often to divide; half as many as x has suffice. *)
+Definition root_bits : Z := let square a := a * a in square (square (square (square (square 256)))).
+
+Definition refined x s := if (x <? root_bits) && (x <? (s - 1) * (s - 1)) then s - 1 else s.
+
+Fixpoint root_above (digits : positive) (x : Z) : Z :=
+  match digits with
+  | xI d | xO d => refined x (2 * root_above d (x / 4))
+  | xH => x + 1
+  end.
+
+(* A number whose square is at least x. *)
+Definition root_up (x : Z) : Z := if x is Zpos p then root_above p (x - 1) else 0.
 
 Definition norm2 x := root_up (squares x).
 
@@ -238,29 +246,21 @@ Qed.
 Lemma squares_nonneg x : (0 <= squares x)%Z.
 Proof. by elim: x => //= a x; clear; nia. Qed.
 
-Lemma sqrt_up_bound x : (0 <= x)%Z -> (x <= Z.sqrt_up x * Z.sqrt_up x)%Z.
+Lemma root_above_bound (digits : positive) x : (0 <= x)%Z ->
+  (0 <= root_above digits x)%Z /\ (x < root_above digits x * root_above digits x)%Z.
 Proof.
-move=> x0; have [pos|<-] : (0 < x \/ 0 = x)%Z by move: x0; clear; lia.
-  by have [_] := Z.sqrt_up_spec _ pos.
-by [].
+elim: digits x => [d IH|d IH|] x x0; last by rewrite /=; move: x0; clear; nia.
+all: have := Z.mul_succ_div_gt x 4 erefl; have [|s0 root] := IH (x / 4)%Z; first exact: Z.div_pos.
+all: move: s0 root; rewrite -[root_above _ x]/(refined x (2 * root_above d (x / 4))%Z).
+all: rewrite /refined; move: (x / 4)%Z (root_above d _) => y s s0 root lead.
+all: case: ifP => [/andP[_ /Z.ltb_lt]|_]; move: x0 s0 root lead; clear; nia.
 Qed.
 
 Lemma root_up_bound x : (0 <= x)%Z -> (0 <= root_up x)%Z /\ (x <= root_up x * root_up x)%Z.
 Proof.
-move=> x0; rewrite /root_up; case: ifP => [_|k0].
-  by split; [apply: Z.sqrt_up_nonneg | apply: sqrt_up_bound].
-set unit := (2 ^ _)%Z; have unit0 : (0 < unit)%Z.
-  by apply: Z.pow_pos_nonneg; move: k0 => /Z.leb_gt; clear; lia.
-have square0 : (0 < unit * unit)%Z by move: unit0; clear; nia.
-have lead := Z.mul_succ_div_gt x (unit * unit) square0.
-have div0 : (0 <= x / (unit * unit))%Z by apply: Z.div_pos.
-set q := (x / (unit * unit))%Z in lead div0 *; set s := Z.sqrt_up (q + 1).
-have s0 : (0 <= s)%Z := Z.sqrt_up_nonneg _.
-have root : (q + 1 <= s * s)%Z by apply: sqrt_up_bound; move: div0; clear; lia.
-split; first by apply: Z.mul_nonneg_nonneg => //; apply: Z.lt_le_incl.
-have : (unit * unit * (q + 1) <= unit * unit * (s * s))%Z.
-  by apply: Z.mul_le_mono_nonneg_l => //; apply: Z.lt_le_incl.
-by move: lead; rewrite -Z.add_1_r; move: (unit) (q) (s); clear; nia.
+case: x => // d _; rewrite /root_up; have [|r0] := root_above_bound d (x := (Z.pos d - 1)%Z).
+  by clear; lia.
+by move: (root_above _ _) r0 => r; clear; lia.
 Qed.
 
 Lemma norm2_bound x : (0 <= norm2 x)%Z /\ (squares x <= norm2 x * norm2 x)%Z.

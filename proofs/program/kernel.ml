@@ -48,213 +48,6 @@ type reflect =
 
 module Pos =
  struct
-  type mask =
-  | IsNul
-  | IsPos of Big_int_Z.big_int
-  | IsNeg
- end
-
-module Coq_Pos =
- struct
-  (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let rec succ = Big_int_Z.succ_big_int
-
-  (** val add :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let rec add = Big_int_Z.add_big_int
-
-  (** val add_carry :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  and add_carry x y =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q ->
-        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-        (add_carry p q))
-        (fun q -> Big_int_Z.mult_int_big_int 2 (add_carry p q))
-        (fun _ ->
-        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-        (succ p))
-        y)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> Big_int_Z.mult_int_big_int 2 (add_carry p q))
-        (fun q ->
-        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-        (add p q))
-        (fun _ -> Big_int_Z.mult_int_big_int 2 (succ p))
-        y)
-      (fun _ ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q ->
-        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-        (succ q))
-        (fun q -> Big_int_Z.mult_int_big_int 2 (succ q))
-        (fun _ ->
-        (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-        Big_int_Z.unit_big_int)
-        y)
-      x
-
-  (** val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let rec pred_double x =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p ->
-      (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-      (Big_int_Z.mult_int_big_int 2 p))
-      (fun p ->
-      (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-      (pred_double p))
-      (fun _ -> Big_int_Z.unit_big_int)
-      x
-
-  type mask = Pos.mask =
-  | IsNul
-  | IsPos of Big_int_Z.big_int
-  | IsNeg
-
-  (** val succ_double_mask : mask -> mask **)
-
-  let succ_double_mask = function
-  | IsNul -> IsPos Big_int_Z.unit_big_int
-  | IsPos p ->
-    IsPos ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-      p)
-  | IsNeg -> IsNeg
-
-  (** val double_mask : mask -> mask **)
-
-  let double_mask = function
-  | IsPos p -> IsPos (Big_int_Z.mult_int_big_int 2 p)
-  | x0 -> x0
-
-  (** val double_pred_mask : Big_int_Z.big_int -> mask **)
-
-  let double_pred_mask x =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p -> IsPos (Big_int_Z.mult_int_big_int 2
-      (Big_int_Z.mult_int_big_int 2 p)))
-      (fun p -> IsPos (Big_int_Z.mult_int_big_int 2
-      (pred_double p)))
-      (fun _ -> IsNul)
-      x
-
-  (** val sub_mask : Big_int_Z.big_int -> Big_int_Z.big_int -> mask **)
-
-  let rec sub_mask x y =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> double_mask (sub_mask p q))
-        (fun q -> succ_double_mask (sub_mask p q))
-        (fun _ -> IsPos (Big_int_Z.mult_int_big_int 2 p))
-        y)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> succ_double_mask (sub_mask_carry p q))
-        (fun q -> double_mask (sub_mask p q))
-        (fun _ -> IsPos (pred_double p))
-        y)
-      (fun _ ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun _ -> IsNeg)
-        (fun _ -> IsNeg)
-        (fun _ -> IsNul)
-        y)
-      x
-
-  (** val sub_mask_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> mask **)
-
-  and sub_mask_carry x y =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> succ_double_mask (sub_mask_carry p q))
-        (fun q -> double_mask (sub_mask p q))
-        (fun _ -> IsPos (pred_double p))
-        y)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> double_mask (sub_mask_carry p q))
-        (fun q -> succ_double_mask (sub_mask_carry p q))
-        (fun _ -> double_pred_mask p)
-        y)
-      (fun _ -> IsNeg)
-      x
-
-  (** val mul :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let rec mul = Big_int_Z.mult_big_int
-
-  (** val iter : ('a1 -> 'a1) -> 'a1 -> Big_int_Z.big_int -> 'a1 **)
-
-  let rec iter f x n =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun n' -> f (iter f (iter f x n') n'))
-      (fun n' -> iter f (iter f x n') n')
-      (fun _ -> f x)
-      n
-
-  (** val size : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let rec size p =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p0 -> succ (size p0))
-      (fun p0 -> succ (size p0))
-      (fun _ -> Big_int_Z.unit_big_int)
-      p
-
   (** val compare_cont :
       comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
 
@@ -265,243 +58,10 @@ module Coq_Pos =
 
   let compare = (fun x y -> let s = Big_int_Z.compare_big_int x y in
   if s = 0 then Eq else if s < 0 then Lt else Gt)
-
-  (** val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
-
-  let rec eqb p q =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p0 ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q0 -> eqb p0 q0)
-        (fun _ -> false)
-        (fun _ -> false)
-        q)
-      (fun p0 ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun _ -> false)
-        (fun q0 -> eqb p0 q0)
-        (fun _ -> false)
-        q)
-      (fun _ ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun _ -> false)
-        (fun _ -> false)
-        (fun _ -> true)
-        q)
-      p
-
-  (** val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
-
-  let leb x y =
-    match compare x y with
-    | Gt -> false
-    | _ -> true
-
-  (** val sqrtrem_step :
-      (Big_int_Z.big_int -> Big_int_Z.big_int) -> (Big_int_Z.big_int ->
-      Big_int_Z.big_int) -> (Big_int_Z.big_int * mask) ->
-      Big_int_Z.big_int * mask **)
-
-  let sqrtrem_step f g = function
-  | (s, y) ->
-    (match y with
-     | IsPos r ->
-       let s' =
-         (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-         (Big_int_Z.mult_int_big_int 2 s)
-       in
-       let r' = g (f r) in
-       if leb s' r'
-       then (((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-              s), (sub_mask r' s'))
-       else ((Big_int_Z.mult_int_big_int 2 s), (IsPos r'))
-     | _ ->
-       ((Big_int_Z.mult_int_big_int 2 s),
-         (sub_mask (g (f Big_int_Z.unit_big_int))
-           (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-           Big_int_Z.unit_big_int)))))
-
-  (** val sqrtrem : Big_int_Z.big_int -> Big_int_Z.big_int * mask **)
-
-  let rec sqrtrem p =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p0 ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun p1 ->
-        sqrtrem_step (fun x ->
-          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-          x) (fun x ->
-          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-          x) (sqrtrem p1))
-        (fun p1 ->
-        sqrtrem_step (fun x -> Big_int_Z.mult_int_big_int 2 x) (fun x ->
-          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-          x) (sqrtrem p1))
-        (fun _ -> (Big_int_Z.unit_big_int, (IsPos
-        (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))
-        p0)
-      (fun p0 ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun p1 ->
-        sqrtrem_step (fun x ->
-          (fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-          x) (fun x -> Big_int_Z.mult_int_big_int 2 x) (sqrtrem p1))
-        (fun p1 ->
-        sqrtrem_step (fun x -> Big_int_Z.mult_int_big_int 2 x) (fun x ->
-          Big_int_Z.mult_int_big_int 2 x) (sqrtrem p1))
-        (fun _ -> (Big_int_Z.unit_big_int, (IsPos Big_int_Z.unit_big_int)))
-        p0)
-      (fun _ -> (Big_int_Z.unit_big_int, IsNul))
-      p
-
-  (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let sqrt p =
-    fst (sqrtrem p)
  end
 
 module Z =
  struct
-  (** val double : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let double x =
-    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
-  if s = 0 then fO () else if s > 0 then fp z
-  else fn (Big_int_Z.minus_big_int z))
-      (fun _ -> Big_int_Z.zero_big_int)
-      (fun p -> (Big_int_Z.mult_int_big_int 2 p))
-      (fun p -> Big_int_Z.minus_big_int (Big_int_Z.mult_int_big_int 2 p))
-      x
-
-  (** val succ_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let succ_double x =
-    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
-  if s = 0 then fO () else if s > 0 then fp z
-  else fn (Big_int_Z.minus_big_int z))
-      (fun _ -> Big_int_Z.unit_big_int)
-      (fun p ->
-      ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x))
-      p))
-      (fun p -> Big_int_Z.minus_big_int (Coq_Pos.pred_double p))
-      x
-
-  (** val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let pred_double x =
-    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
-  if s = 0 then fO () else if s > 0 then fp z
-  else fn (Big_int_Z.minus_big_int z))
-      (fun _ -> Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-      (fun p -> (Coq_Pos.pred_double p))
-      (fun p -> Big_int_Z.minus_big_int
-      ((fun x -> Big_int_Z.succ_big_int (Big_int_Z.mult_int_big_int 2 x)) p))
-      x
-
-  (** val pos_sub :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let rec pos_sub x y =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> double (pos_sub p q))
-        (fun q -> succ_double (pos_sub p q))
-        (fun _ -> (Big_int_Z.mult_int_big_int 2 p))
-        y)
-      (fun p ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> pred_double (pos_sub p q))
-        (fun q -> double (pos_sub p q))
-        (fun _ -> (Coq_Pos.pred_double p))
-        y)
-      (fun _ ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun q -> Big_int_Z.minus_big_int (Big_int_Z.mult_int_big_int 2
-        q))
-        (fun q -> Big_int_Z.minus_big_int (Coq_Pos.pred_double q))
-        (fun _ -> Big_int_Z.zero_big_int)
-        y)
-      x
-
-  (** val add :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let add = Big_int_Z.add_big_int
-
-  (** val opp : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let opp = Big_int_Z.minus_big_int
-
-  (** val succ : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let succ = Big_int_Z.succ_big_int
-
-  (** val pred : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let pred = Big_int_Z.pred_big_int
-
-  (** val sub :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let sub = Big_int_Z.sub_big_int
-
-  (** val mul :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let mul = Big_int_Z.mult_big_int
-
-  (** val pow_pos :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let pow_pos z0 =
-    Coq_Pos.iter (mul z0) Big_int_Z.unit_big_int
-
-  (** val pow :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let pow x y =
-    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
-  if s = 0 then fO () else if s > 0 then fp z
-  else fn (Big_int_Z.minus_big_int z))
-      (fun _ -> Big_int_Z.unit_big_int)
-      (fun p -> pow_pos x p)
-      (fun _ -> Big_int_Z.zero_big_int)
-      y
-
   (** val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
 
   let compare = (fun x y -> let s = Big_int_Z.compare_big_int x y in
@@ -521,64 +81,6 @@ module Z =
     | Lt -> true
     | _ -> false
 
-  (** val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
-
-  let eqb = Big_int_Z.eq_big_int
-
-  (** val max :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let max = Big_int_Z.max_big_int
-
-  (** val abs : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let abs = Big_int_Z.abs_big_int
-
-  (** val pos_div_eucl :
-      Big_int_Z.big_int -> Big_int_Z.big_int ->
-      Big_int_Z.big_int * Big_int_Z.big_int **)
-
-  let rec pos_div_eucl a b =
-    (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-      (fun a' ->
-      let (q, r) = pos_div_eucl a' b in
-      let r' =
-        add (mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) r)
-          Big_int_Z.unit_big_int
-      in
-      if ltb r' b
-      then ((mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q), r')
-      else ((add
-              (mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q)
-              Big_int_Z.unit_big_int), (sub r' b)))
-      (fun a' ->
-      let (q, r) = pos_div_eucl a' b in
-      let r' = mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) r in
-      if ltb r' b
-      then ((mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q), r')
-      else ((add
-              (mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) q)
-              Big_int_Z.unit_big_int), (sub r' b)))
-      (fun _ ->
-      if leb (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) b
-      then (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)
-      else (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int))
-      a
-
-  (** val div_eucl :
-      Big_int_Z.big_int -> Big_int_Z.big_int ->
-      Big_int_Z.big_int * Big_int_Z.big_int **)
-
-  let div_eucl = Big_int_Z.(fun x y ->
-  match sign_big_int y with
-  | 0 -> (zero_big_int, x)
-  | 1 -> quomod_big_int x y
-  | _ -> let (q, r) = quomod_big_int (add_int_big_int (-1) x) y in
-          (add_int_big_int (-1) q, add_big_int (add_int_big_int 1 y) r))
-
   (** val div :
       Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
@@ -587,43 +89,6 @@ module Z =
   | 0 -> zero_big_int
   | 1 -> div_big_int x y
   | _ -> add_int_big_int (-1) (div_big_int (add_int_big_int (-1) x) y))
-
-  (** val log2 : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let log2 z0 =
-    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
-  if s = 0 then fO () else if s > 0 then fp z
-  else fn (Big_int_Z.minus_big_int z))
-      (fun _ -> Big_int_Z.zero_big_int)
-      (fun p0 ->
-      (fun f2p1 f2p f1 p ->
-  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
-  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
-  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
-        (fun p -> (Coq_Pos.size p))
-        (fun p -> (Coq_Pos.size p))
-        (fun _ -> Big_int_Z.zero_big_int)
-        p0)
-      (fun _ -> Big_int_Z.zero_big_int)
-      z0
-
-  (** val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let sqrt n =
-    (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
-  if s = 0 then fO () else if s > 0 then fp z
-  else fn (Big_int_Z.minus_big_int z))
-      (fun _ -> Big_int_Z.zero_big_int)
-      (fun p -> (Coq_Pos.sqrt p))
-      (fun _ -> Big_int_Z.zero_big_int)
-      n
-
-  (** val sqrt_up : Big_int_Z.big_int -> Big_int_Z.big_int **)
-
-  let sqrt_up a =
-    match compare Big_int_Z.zero_big_int a with
-    | Lt -> succ (sqrt (pred a))
-    | _ -> Big_int_Z.zero_big_int
  end
 
 module Option =
@@ -764,9 +229,9 @@ let eqP t =
   let _evar_0_ = fun _ a -> a in
   let { Equality.op = op0; Equality.mixin_of__1 = a } = t in _evar_0_ op0 a
 
-(** val eqb0 : bool -> bool -> bool **)
+(** val eqb : bool -> bool -> bool **)
 
-let eqb0 b =
+let eqb b =
   addb (negb b)
 
 (** val eqbP : bool Equality.axiom **)
@@ -787,7 +252,7 @@ let eqbP __top_assumption_ =
 (** val bool_eqMixin : bool Equality.mixin_of **)
 
 let bool_eqMixin =
-  { Equality.op = eqb0; Equality.mixin_of__1 = eqbP }
+  { Equality.op = eqb; Equality.mixin_of__1 = eqbP }
 
 (** val bool_eqType : Equality.coq_type **)
 
@@ -879,12 +344,12 @@ let subn =
 let leq m n =
   eq_op nat_eqType (Obj.magic subn m n) (Obj.magic 0)
 
-(** val iter0 : int -> ('a1 -> 'a1) -> 'a1 -> 'a1 **)
+(** val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1 **)
 
-let rec iter0 n f x =
+let rec iter n f x =
   (fun zero next n -> if n = 0 then zero () else next (Natural.before n))
     (fun _ -> x)
-    (fun i -> f (iter0 i f x))
+    (fun i -> f (iter i f x))
     n
 
 (** val muln_rec : int -> int -> int **)
@@ -911,16 +376,16 @@ let rec odd n =
     (fun n' -> negb (odd n'))
     n
 
-(** val size0 : 'a1 list -> int **)
+(** val size : 'a1 list -> int **)
 
-let rec size0 = function
+let rec size = function
 | [] -> 0
-| _ :: s' -> Natural.succ (size0 s')
+| _ :: s' -> Natural.succ (size s')
 
 (** val nilp : 'a1 list -> bool **)
 
 let nilp s =
-  eq_op nat_eqType (Obj.magic size0 s) (Obj.magic 0)
+  eq_op nat_eqType (Obj.magic size s) (Obj.magic 0)
 
 (** val head : 'a1 -> 'a1 list -> 'a1 **)
 
@@ -937,7 +402,7 @@ let behead = function
 (** val ncons : int -> 'a1 -> 'a1 list -> 'a1 list **)
 
 let ncons n x =
-  iter0 n (fun x0 -> x :: x0)
+  iter n (fun x0 -> x :: x0)
 
 (** val nseq : int -> 'a1 -> 'a1 list **)
 
@@ -1144,12 +609,12 @@ module ZInstances =
   (** val eqZP : Big_int_Z.big_int Equality.axiom **)
 
   let eqZP x y =
-    iffP (Z.eqb x y) (idP (Z.eqb x y))
+    iffP (Big_int_Z.eq_big_int x y) (idP (Big_int_Z.eq_big_int x y))
 
   (** val coq_Z_eqType : Equality.coq_type **)
 
   let coq_Z_eqType =
-    { Equality.op = (Obj.magic Z.eqb); Equality.mixin_of__1 =
+    { Equality.op = (Obj.magic Big_int_Z.eq_big_int); Equality.mixin_of__1 =
       (Obj.magic eqZP) }
  end
 
@@ -1163,7 +628,7 @@ let entry m i j =
 (** val sumZ : int list -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int **)
 
 let sumZ l f =
-  foldr (fun i a -> Z.add (f i) a) Big_int_Z.zero_big_int l
+  foldr (fun i a -> Big_int_Z.add_big_int (f i) a) Big_int_Z.zero_big_int l
 
 type point = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -1223,8 +688,11 @@ let ordered lo hi =
     ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
       ((&&) (Z.leb Big_int_Z.zero_big_int (fst hi))
         ((&&) (Z.leb Big_int_Z.zero_big_int (snd hi))
-          ((&&) (Z.ltb Big_int_Z.zero_big_int (Z.add (fst hi) (snd hi)))
-            (Z.leb (Z.mul (fst lo) (snd hi)) (Z.mul (fst hi) (snd lo)))))))
+          ((&&)
+            (Z.ltb Big_int_Z.zero_big_int
+              (Big_int_Z.add_big_int (fst hi) (snd hi)))
+            (Z.leb (Big_int_Z.mult_big_int (fst lo) (snd hi))
+              (Big_int_Z.mult_big_int (fst hi) (snd lo)))))))
 
 type 'leaf tree =
 | Split of point * 'leaf tree * 'leaf tree
@@ -1268,29 +736,35 @@ let indices p =
 (** val center : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
 
 let center p e i j =
-  Z.add (Z.mul (snd e) (entry p.center_a i j))
-    (Z.mul (fst e) (entry p.center_b i j))
+  Big_int_Z.add_big_int
+    (Big_int_Z.mult_big_int (snd e) (entry p.center_a i j))
+    (Big_int_Z.mult_big_int (fst e) (entry p.center_b i j))
 
 (** val radius : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
 
 let radius p e i j =
-  Z.add (Z.mul (snd e) (entry p.radius_a i j))
-    (Z.mul (fst e) (entry p.radius_b i j))
+  Big_int_Z.add_big_int
+    (Big_int_Z.mult_big_int (snd e) (entry p.radius_a i j))
+    (Big_int_Z.mult_big_int (fst e) (entry p.radius_b i j))
 
 (** val column_bound :
     enclosed -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int **)
 
 let column_bound p w e j =
   sumZ (indices p) (fun i ->
-    Z.add (Z.mul (nth Big_int_Z.zero_big_int w i) (center p e i j))
-      (Z.mul (Z.abs (nth Big_int_Z.zero_big_int w i)) (radius p e i j)))
+    Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w i)
+        (center p e i j))
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int w i))
+        (radius p e i j)))
 
 (** val strict_column :
     enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
 
 let strict_column p r w j =
   (&&) (Z.ltb (column_bound p w r.lower j) Big_int_Z.zero_big_int)
-    ((||) (Z.eqb (snd r.upper) Big_int_Z.zero_big_int)
+    ((||) (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int)
       (Z.ltb (column_bound p w r.upper j) Big_int_Z.zero_big_int))
 
 (** val signs_of_weights :
@@ -1359,7 +833,7 @@ let box_farkas p p' r w =
 
 let rec sum_from f k = function
 | [] -> Big_int_Z.zero_big_int
-| x :: l' -> Z.add (f k x) (sum_from f (Natural.succ k) l')
+| x :: l' -> Big_int_Z.add_big_int (f k x) (sum_from f (Natural.succ k) l')
 
 (** val all_from : (int -> 'a1 -> bool) -> int -> 'a1 list -> bool **)
 
@@ -1378,7 +852,7 @@ let rec map_from f k = function
     ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int **)
 
 let remainder s product0 a b =
-  Z.sub (s (fst a) (fst b)) (product0 (snd a) (snd b))
+  Big_int_Z.sub_big_int (s (fst a) (fst b)) (product0 (snd a) (snd b))
 
 (** val off_diagonal :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
@@ -1388,7 +862,7 @@ let off_diagonal s product0 rows i a =
   sum_from (fun j b ->
     if eq_op nat_eqType (Obj.magic j) i
     then Big_int_Z.zero_big_int
-    else Z.abs (remainder s product0 a b)) 0 rows
+    else Big_int_Z.abs_big_int (remainder s product0 a b)) 0 rows
 
 (** val covered :
     ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
@@ -1415,7 +889,10 @@ let rec weighted_dot w a b =
      | x :: a' ->
        (match b with
         | [] -> Big_int_Z.zero_big_int
-        | y :: b' -> Z.add (Z.mul u (Z.mul x y)) (weighted_dot w' a' b')))
+        | y :: b' ->
+          Big_int_Z.add_big_int
+            (Big_int_Z.mult_big_int u (Big_int_Z.mult_big_int x y))
+            (weighted_dot w' a' b')))
 
 (** val dot :
     Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
@@ -1426,7 +903,8 @@ let rec dot a b =
   | x :: a' ->
     (match b with
      | [] -> Big_int_Z.zero_big_int
-     | y :: b' -> Z.add (Z.mul x y) (dot a' b'))
+     | y :: b' ->
+       Big_int_Z.add_big_int (Big_int_Z.mult_big_int x y) (dot a' b'))
 
 type late_row = int * Big_int_Z.big_int list
 
@@ -1448,12 +926,13 @@ let active p r =
     enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int **)
 
 let symmetric_part p negative0 e i j =
-  Z.sub
-    (Z.sub
+  Big_int_Z.sub_big_int
+    (Big_int_Z.sub_big_int
       (if negative0
-       then Z.sub (Z.opp (center p e i j)) (center p e j i)
-       else Z.add (center p e i j) (center p e j i)) (radius p e i j))
-    (radius p e j i)
+       then Big_int_Z.sub_big_int (Big_int_Z.minus_big_int (center p e i j))
+              (center p e j i)
+       else Big_int_Z.add_big_int (center p e i j) (center p e j i))
+      (radius p e i j)) (radius p e j i)
 
 (** val definite_end :
     enclosed -> bool -> bool -> point -> region -> factor -> bool **)
@@ -1461,8 +940,8 @@ let symmetric_part p negative0 e i j =
 let definite_end p negative0 strict e r f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
     ((&&)
-      (eq_op nat_eqType (Obj.magic size0 f.factor_rows)
-        (Obj.magic size0 (active p r)))
+      (eq_op nat_eqType (Obj.magic size f.factor_rows)
+        (Obj.magic size (active p r)))
       (covered (symmetric_part p negative0 e) (weighted_dot f.weights) strict
         (zip (active p r) f.factor_rows)))
 
@@ -1500,13 +979,15 @@ let unit_entry u i j =
     enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int **)
 
 let product_center p l y e i j =
-  sumZ l (fun l0 -> Z.mul (entry y i l0) (center p e l0 j))
+  sumZ l (fun l0 -> Big_int_Z.mult_big_int (entry y i l0) (center p e l0 j))
 
 (** val product_radius :
     enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int **)
 
 let product_radius p l y e i j =
-  sumZ l (fun l0 -> Z.mul (Z.abs (entry y i l0)) (radius p e l0 j))
+  sumZ l (fun l0 ->
+    Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (entry y i l0))
+      (radius p e l0 j))
 
 (** val defect :
     enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int ->
@@ -1514,28 +995,33 @@ let product_radius p l y e i j =
 
 let defect p k y u e i =
   sumZ k (fun j ->
-    Z.add (Z.abs (Z.sub (unit_entry u i j) (product_center p k y e i j)))
-      (product_radius p k y e i j))
+    Big_int_Z.add_big_int
+      (Big_int_Z.abs_big_int
+        (Big_int_Z.sub_big_int (unit_entry u i j)
+          (product_center p k y e i j))) (product_radius p k y e i j))
 
 (** val residual :
     enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
     point -> int -> Big_int_Z.big_int **)
 
 let residual p j k v y e i =
-  Z.add
-    (Z.abs
+  Big_int_Z.add_big_int
+    (Big_int_Z.abs_big_int
       (sumZ j (fun j0 ->
-        Z.mul (product_center p k y e i j0) (nth Big_int_Z.zero_big_int v j0))))
+        Big_int_Z.mult_big_int (product_center p k y e i j0)
+          (nth Big_int_Z.zero_big_int v j0))))
     (sumZ j (fun j0 ->
-      Z.mul (product_radius p k y e i j0)
-        (Z.abs (nth Big_int_Z.zero_big_int v j0))))
+      Big_int_Z.mult_big_int (product_radius p k y e i j0)
+        (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int v j0))))
 
 (** val contracts :
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
     Big_int_Z.big_int -> bool **)
 
 let contracts u eps rho r =
-  (&&) (Z.ltb rho u) (Z.leb (Z.add (Z.mul rho eps) r) (Z.mul u eps))
+  (&&) (Z.ltb rho u)
+    (Z.leb (Big_int_Z.add_big_int (Big_int_Z.mult_big_int rho eps) r)
+      (Big_int_Z.mult_big_int u eps))
 
 (** val box_row :
     enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
@@ -1566,7 +1052,8 @@ let check_box p j k v b lo hi =
     Big_int_Z.big_int **)
 
 let sum_center j v f =
-  sumZ j (fun j0 -> Z.mul (f j0) (nth Big_int_Z.zero_big_int v j0))
+  sumZ j (fun j0 ->
+    Big_int_Z.mult_big_int (f j0) (nth Big_int_Z.zero_big_int v j0))
 
 (** val sum_radius :
     int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int)
@@ -1574,17 +1061,22 @@ let sum_center j v f =
 
 let sum_radius j k v f r eps =
   sumZ j (fun j0 ->
-    Z.add (Z.mul (r j0) (Z.abs (nth Big_int_Z.zero_big_int v j0)))
+    Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int (r j0)
+        (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int v j0)))
       (if eq_op nat_eqType (Obj.magic j0) (Obj.magic k)
        then Big_int_Z.zero_big_int
-       else Z.mul (Z.add (Z.abs (f j0)) (r j0)) eps))
+       else Big_int_Z.mult_big_int
+              (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (f j0)) (r j0))
+              eps))
 
 (** val rate_center :
     enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int ->
     Big_int_Z.big_int **)
 
 let rate_center p j v y i =
-  sumZ j (fun l -> Z.mul (entry y i l) (sum_center j v (entry p.center_b l)))
+  sumZ j (fun l ->
+    Big_int_Z.mult_big_int (entry y i l) (sum_center j v (entry p.center_b l)))
 
 (** val rate_radius :
     enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
@@ -1592,7 +1084,7 @@ let rate_center p j v y i =
 
 let rate_radius p j k v y eps i =
   sumZ j (fun l ->
-    Z.mul (Z.abs (entry y i l))
+    Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (entry y i l))
       (sum_radius j k v (entry p.center_b l) (entry p.radius_b l) eps))
 
 (** val system_center :
@@ -1602,8 +1094,8 @@ let rate_radius p j k v y eps i =
 
 let system_center p j k v y w e i j0 =
   if eq_op nat_eqType j0 (Obj.magic k)
-  then Z.mul (snd e) (rate_center p j v y i)
-  else Z.mul w (product_center p j y e i (Obj.magic j0))
+  then Big_int_Z.mult_big_int (snd e) (rate_center p j v y i)
+  else Big_int_Z.mult_big_int w (product_center p j y e i (Obj.magic j0))
 
 (** val system_radius :
     enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
@@ -1613,8 +1105,8 @@ let system_center p j k v y w e i j0 =
 
 let system_radius p j k v y w eps e i j0 =
   if eq_op nat_eqType j0 (Obj.magic k)
-  then Z.mul (snd e) (rate_radius p j k v y eps i)
-  else Z.mul w (product_radius p j y e i (Obj.magic j0))
+  then Big_int_Z.mult_big_int (snd e) (rate_radius p j k v y eps i)
+  else Big_int_Z.mult_big_int w (product_radius p j y e i (Obj.magic j0))
 
 (** val unique_row :
     enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
@@ -1624,9 +1116,9 @@ let system_radius p j k v y w eps e i j0 =
 let unique_row p j k v y u w eps e i =
   Z.ltb
     (sumZ j (fun j0 ->
-      Z.add
-        (Z.abs
-          (Z.sub (unit_entry u i j0)
+      Big_int_Z.add_big_int
+        (Big_int_Z.abs_big_int
+          (Big_int_Z.sub_big_int (unit_entry u i j0)
             (system_center p j k v y w e i (Obj.magic j0))))
         (system_radius p j k v y w eps e i (Obj.magic j0)))) u
 
@@ -1682,7 +1174,8 @@ let decided p r =
 (** val point_le : point -> point -> bool **)
 
 let point_le a b =
-  Z.leb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))
+  Z.leb (Big_int_Z.mult_big_int (fst a) (snd b))
+    (Big_int_Z.mult_big_int (fst b) (snd a))
 
 (** val left_center :
     enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
@@ -1704,8 +1197,9 @@ let left_radius p r k v u eps e =
     list -> Big_int_Z.big_int -> point -> bool **)
 
 let left_negative p r k v u eps e =
-  Z.ltb (Z.add (left_center p r v u e) (left_radius p r k v u eps e))
-    Big_int_Z.zero_big_int
+  Z.ltb
+    (Big_int_Z.add_big_int (left_center p r v u e)
+      (left_radius p r k v u eps e)) Big_int_Z.zero_big_int
 
 (** val left_positive :
     enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
@@ -1713,7 +1207,8 @@ let left_negative p r k v u eps e =
 
 let left_positive p r k v u eps e =
   Z.ltb Big_int_Z.zero_big_int
-    (Z.sub (left_center p r v u e) (left_radius p r k v u eps e))
+    (Big_int_Z.sub_big_int (left_center p r v u e)
+      (left_radius p r k v u eps e))
 
 (** val row_center :
     enclosed -> region -> Big_int_Z.big_int list -> point -> int ->
@@ -1735,15 +1230,17 @@ let row_radius p r k v eps e i =
 
 let row_positive p r k v eps e i =
   Z.ltb Big_int_Z.zero_big_int
-    (Z.sub (row_center p r v e i) (row_radius p r k v eps e i))
+    (Big_int_Z.sub_big_int (row_center p r v e i)
+      (row_radius p r k v eps e i))
 
 (** val row_negative :
     enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
     -> point -> int -> bool **)
 
 let row_negative p r k v eps e i =
-  Z.ltb (Z.add (row_center p r v e i) (row_radius p r k v eps e i))
-    Big_int_Z.zero_big_int
+  Z.ltb
+    (Big_int_Z.add_big_int (row_center p r v e i)
+      (row_radius p r k v eps e i)) Big_int_Z.zero_big_int
 
 (** val interval_inside : region -> isolation -> bool **)
 
@@ -1818,7 +1315,8 @@ let outcome_signs p r c = function
   (&&)
     (in_mem (Obj.magic i)
       (mem (seq_predType nat_eqType) (Obj.magic others p r c.pivot)))
-    (Z.ltb (nth Big_int_Z.zero_big_int c.vector i) (Z.opp c.narrow_box.width))
+    (Z.ltb (nth Big_int_Z.zero_big_int c.vector i)
+      (Big_int_Z.minus_big_int c.narrow_box.width))
 | NegativeY i ->
   (&&)
     (in_mem (Obj.magic i)
@@ -1929,7 +1427,8 @@ let supports_region p r q =
 
 let check_infinite p r c =
   (&&) (pinned p r c)
-    ((&&) c.pin_reversed (Z.eqb (snd r.upper) Big_int_Z.zero_big_int))
+    ((&&) c.pin_reversed
+      (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
 
 type interval = point * point
 
@@ -2020,7 +1519,7 @@ let check_leaf p solutions check_whole0 check_limit0 r = function
 | Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
 | Claimed (h, c, n) ->
   (&&) (reaches r h)
-    ((&&) (leq (Natural.succ n) (size0 solutions))
+    ((&&) (leq (Natural.succ n) (size solutions))
       (check_claimed p (extended r h) c (known_at solutions n)))
 | Infinite (h, c, x) ->
   (&&) (reaches r h)
@@ -2095,7 +1594,8 @@ let value_of y =
 let point_lt a b =
   (&&) (Z.leb Big_int_Z.zero_big_int (snd a))
     ((&&) (Z.leb Big_int_Z.zero_big_int (snd b))
-      (Z.ltb (Z.mul (fst a) (snd b)) (Z.mul (fst b) (snd a))))
+      (Z.ltb (Big_int_Z.mult_big_int (fst a) (snd b))
+        (Big_int_Z.mult_big_int (fst b) (snd a))))
 
 (** val same_solution : int -> yield -> yield -> bool **)
 
@@ -2139,13 +1639,13 @@ type sparse_row = (int * Big_int_Z.big_int) list
 let lookup row j =
   foldr (fun entry0 sum0 ->
     if eq_op nat_eqType (fst (Obj.magic entry0)) (Obj.magic j)
-    then Z.add (snd entry0) sum0
+    then Big_int_Z.add_big_int (snd entry0) sum0
     else sum0) Big_int_Z.zero_big_int row
 
 (** val times_row : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let times_row c row =
-  map0 (fun e -> ((fst e), (Z.mul c (snd e)))) row
+  map0 (fun e -> ((fst e), (Big_int_Z.mult_big_int c (snd e)))) row
 
 type form_bound = { bound_times : Big_int_Z.big_int;
                     bound_at : Big_int_Z.big_int;
@@ -2156,20 +1656,22 @@ type form_bound = { bound_times : Big_int_Z.big_int;
 let spread row =
   foldr (fun e dense ->
     set_nth Big_int_Z.zero_big_int dense (fst e)
-      (Z.add (snd e) (nth Big_int_Z.zero_big_int dense (fst e)))) [] row
+      (Big_int_Z.add_big_int (snd e)
+        (nth Big_int_Z.zero_big_int dense (fst e)))) [] row
 
 (** val shifted_row :
     Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row **)
 
 let shifted_row c d i row =
-  (i, (Z.opp d)) :: (times_row c row)
+  (i, (Big_int_Z.minus_big_int d)) :: (times_row c row)
 
 (** val symmetric_rows_sparse : sparse_row list -> bool **)
 
 let symmetric_rows_sparse rows =
   all_from (fun i row ->
     all (fun e ->
-      Z.eqb (lookup row (fst e)) (lookup (nth [] rows (fst e)) i)) row) 0 rows
+      Big_int_Z.eq_big_int (lookup row (fst e))
+        (lookup (nth [] rows (fst e)) i)) row) 0 rows
 
 (** val distance :
     Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list
@@ -2178,8 +1680,10 @@ let symmetric_rows_sparse rows =
 let rec distance m row a = function
 | [] -> Big_int_Z.zero_big_int
 | b :: factor' ->
-  Z.add
-    (Z.abs (Z.sub (head Big_int_Z.zero_big_int row) (Z.mul m (late_dot a b))))
+  Big_int_Z.add_big_int
+    (Big_int_Z.abs_big_int
+      (Big_int_Z.sub_big_int (head Big_int_Z.zero_big_int row)
+        (Big_int_Z.mult_big_int m (late_dot a b))))
     (distance m (behead row) a factor')
 
 (** val row_bounded :
@@ -2189,9 +1693,10 @@ let rec distance m row a = function
 let row_bounded c d m factor0 i r =
   let row = spread (shifted_row c d i (fst r)) in
   Z.leb (distance m row (snd r) factor0)
-    (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
-      (Z.sub (nth Big_int_Z.zero_big_int row i)
-        (Z.mul m (late_dot (snd r) (snd r)))))
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+      Big_int_Z.unit_big_int)
+      (Big_int_Z.sub_big_int (nth Big_int_Z.zero_big_int row i)
+        (Big_int_Z.mult_big_int m (late_dot (snd r) (snd r)))))
 
 (** val bounded_rows :
     Equality.sort -> sparse_row list -> form_bound -> bool **)
@@ -2200,8 +1705,8 @@ let bounded_rows n rows b =
   (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
     ((&&) (Z.leb Big_int_Z.zero_big_int b.bound_at)
       ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
-        ((&&) (eq_op nat_eqType (Obj.magic size0 rows) n)
-          ((&&) (eq_op nat_eqType (Obj.magic size0 b.gram_rows) n)
+        ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
+          ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
             ((&&) (symmetric_rows_sparse rows)
               (all_from
                 (row_bounded b.bound_times b.bound_at b.gram_times
@@ -2224,13 +1729,16 @@ type elimination = { row_scale : Big_int_Z.big_int list;
 
 let sparse_dot row x =
   foldr (fun entry0 sum0 ->
-    Z.add (Z.mul (snd entry0) (nth Big_int_Z.zero_big_int x (fst entry0)))
-      sum0) Big_int_Z.zero_big_int row
+    Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int (snd entry0)
+        (nth Big_int_Z.zero_big_int x (fst entry0))) sum0)
+    Big_int_Z.zero_big_int row
 
 (** val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let norm1 l =
-  foldr (fun x sum0 -> Z.add (Z.abs x) sum0) Big_int_Z.zero_big_int l
+  foldr (fun x sum0 -> Big_int_Z.add_big_int (Big_int_Z.abs_big_int x) sum0)
+    Big_int_Z.zero_big_int l
 
 (** val row_of : matrix -> int -> Big_int_Z.big_int list **)
 
@@ -2241,7 +1749,7 @@ let row_of m i =
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let divide_up x d =
-  Z.opp (Z.div (Z.opp x) d)
+  Big_int_Z.minus_big_int (Z.div (Big_int_Z.minus_big_int x) d)
 
 (** val stiffness_positive : blocks -> elimination -> bool **)
 
@@ -2262,7 +1770,8 @@ let residual_column d w g x j =
   let g0 = row_of g j in
   let x0 = row_of x j in
   map_from (fun i row ->
-    Z.sub (Z.mul w.unit_of (nth Big_int_Z.zero_big_int g0 i))
+    Big_int_Z.sub_big_int
+      (Big_int_Z.mult_big_int w.unit_of (nth Big_int_Z.zero_big_int g0 i))
       (sparse_dot row x0)) 0 d.ff
 
 (** val table : blocks -> (int -> int -> Big_int_Z.big_int) -> matrix **)
@@ -2276,10 +1785,13 @@ let table d f =
 
 let condensed_center d w ss sf v r =
   table d (fun i j ->
-    Z.mul (nth Big_int_Z.zero_big_int w.row_scale i)
-      (Z.sub
-        (Z.sub (Z.mul (Z.mul w.unit_of w.unit_of) (entry ss i j))
-          (Z.mul w.unit_of (dot (row_of sf i) (row_of w.right_w j))))
+    Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w.row_scale i)
+      (Big_int_Z.sub_big_int
+        (Big_int_Z.sub_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int w.unit_of w.unit_of) (entry ss i j))
+          (Big_int_Z.mult_big_int w.unit_of
+            (dot (row_of sf i) (row_of w.right_w j))))
         (dot (row_of v i) (row_of r j))))
 
 (** val condensed_radius :
@@ -2289,9 +1801,9 @@ let condensed_center d w ss sf v r =
 let condensed_radius d w norms_l norms_r =
   table d (fun i j ->
     divide_up
-      (Z.mul (nth Big_int_Z.zero_big_int w.row_scale i)
-        (Z.mul
-          (Z.mul (nth Big_int_Z.zero_big_int norms_l i)
+      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w.row_scale i)
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int norms_l i)
             (nth Big_int_Z.zero_big_int norms_r j)) w.bound_c)) w.bound_d)
 
 (** val condensed : blocks -> elimination -> enclosed **)
@@ -2319,7 +1831,7 @@ let shapes d w =
         Z.ltb Big_int_Z.zero_big_int
           (nth Big_int_Z.zero_big_int w.row_scale i)) (iota 0 d.slip_count))
       (all (fun i ->
-        all (fun m -> leq (size0 (row_of m i)) d.free_count)
+        all (fun m -> leq (size (row_of m i)) d.free_count)
           (d.fs :: (d.sf_a :: (d.sf_b :: (w.right_w :: (w.left_va :: (w.left_vb :: [])))))))
         (iota 0 d.slip_count)))
 
@@ -2373,7 +1885,8 @@ let wellformed q =
 
 let free_rows_constant q =
   all (fun i ->
-    all (fun e -> Z.eqb (snd e) Big_int_Z.zero_big_int) (row_b q i)) q.free
+    all (fun e -> Big_int_Z.eq_big_int (snd e) Big_int_Z.zero_big_int)
+      (row_b q i)) q.free
 
 (** val restrict : int option list -> sparse_row -> sparse_row **)
 
@@ -2385,7 +1898,7 @@ let restrict place0 row =
 
 let blocks_by q place0 columns0 =
   let lookups = fun row l -> map0 (fun j -> lookup row j) l in
-  { free_count = (size0 q.free); slip_count = (size0 columns0); ff =
+  { free_count = (size q.free); slip_count = (size columns0); ff =
   (map0 (fun i -> restrict place0 (row_a q i)) q.free); fs =
   (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns0);
   sf_a = (map0 (fun i -> lookups (row_a q i) q.free) columns0); sf_b =
@@ -2422,7 +1935,7 @@ let may_move q r =
   cat q.free
     (map0 (fun j -> nth 0 columns0 j)
       (filter (fun j -> negb (is_resting (state_of r j)))
-        (iota 0 (size0 columns0))))
+        (iota 0 (size columns0))))
 
 (** val members :
     pencil -> Big_int_Z.big_int list -> region -> member list **)
@@ -2434,18 +1947,21 @@ let members q weight r =
 (** val member_entry : point -> member -> member -> Big_int_Z.big_int **)
 
 let member_entry e i j =
-  Z.add (Z.mul (snd e) (lookup (fst (snd i)) (fst j)))
-    (Z.mul (fst e) (lookup (snd (snd i)) (fst j)))
+  Big_int_Z.add_big_int
+    (Big_int_Z.mult_big_int (snd e) (lookup (fst (snd i)) (fst j)))
+    (Big_int_Z.mult_big_int (fst e) (lookup (snd (snd i)) (fst j)))
 
 (** val member_form :
     bool -> Big_int_Z.big_int -> point -> member -> member ->
     Big_int_Z.big_int **)
 
 let member_form negative0 c e i j =
-  Z.mul c
+  Big_int_Z.mult_big_int c
     (if negative0
-     then Z.sub (Z.opp (member_entry e i j)) (member_entry e j i)
-     else Z.add (member_entry e i j) (member_entry e j i))
+     then Big_int_Z.sub_big_int
+            (Big_int_Z.minus_big_int (member_entry e i j))
+            (member_entry e j i)
+     else Big_int_Z.add_big_int (member_entry e i j) (member_entry e j i))
 
 (** val check_end :
     pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
@@ -2457,17 +1973,18 @@ let check_end q weight strict negative0 e r w =
      | Dense (weights0, rows) ->
        (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
          ((&&)
-           (eq_op nat_eqType (Obj.magic size0 rows)
-             (Obj.magic size0 (members q weight r)))
+           (eq_op nat_eqType (Obj.magic size rows)
+             (Obj.magic size (members q weight r)))
            (covered (member_form negative0 w.end_scale e)
              (weighted_dot weights0) strict (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
          ((&&)
-           (eq_op nat_eqType (Obj.magic size0 rows)
-             (Obj.magic size0 (members q weight r)))
+           (eq_op nat_eqType (Obj.magic size rows)
+             (Obj.magic size (members q weight r)))
            (covered (member_form negative0 w.end_scale e) (fun a b ->
-             Z.mul m (late_dot a b)) strict (zip (members q weight r) rows))))
+             Big_int_Z.mult_big_int m (late_dot a b)) strict
+             (zip (members q weight r) rows))))
 
 (** val check_whole : pencil -> region -> whole -> bool **)
 
@@ -2492,7 +2009,7 @@ type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
 (** val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial **)
 
 let scale_poly c p =
-  map0 (fun a -> Z.mul c a) p
+  map0 (fun a -> Big_int_Z.mult_big_int c a) p
 
 (** val add_poly : polynomial -> polynomial -> polynomial **)
 
@@ -2502,7 +2019,7 @@ let rec add_poly p q =
   | a :: p' ->
     (match q with
      | [] -> p
-     | b :: q' -> (Z.add a b) :: (add_poly p' q'))
+     | b :: q' -> (Big_int_Z.add_big_int a b) :: (add_poly p' q'))
 
 (** val mul_poly : polynomial -> polynomial -> polynomial **)
 
@@ -2513,7 +2030,7 @@ let mul_poly p q =
 (** val zero_poly : polynomial -> bool **)
 
 let zero_poly p =
-  all (fun a -> Z.eqb a Big_int_Z.zero_big_int) p
+  all (fun a -> Big_int_Z.eq_big_int a Big_int_Z.zero_big_int) p
 
 (** val horner_interval :
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
@@ -2525,12 +2042,16 @@ let rec horner_interval a b d = function
 | c :: p' ->
   let (p0, power) = horner_interval a b d p' in
   let (lo, hi) = p0 in
-  let constant0 = Z.mul c (Z.mul power d) in
-  (((Z.add
-      (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
-      constant0),
-  (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
-    constant0)), (Z.mul power d))
+  let constant0 = Big_int_Z.mult_big_int c (Big_int_Z.mult_big_int power d) in
+  (((Big_int_Z.add_big_int
+      (if Z.leb Big_int_Z.zero_big_int lo
+       then Big_int_Z.mult_big_int a lo
+       else Big_int_Z.mult_big_int b lo) constant0),
+  (Big_int_Z.add_big_int
+    (if Z.leb Big_int_Z.zero_big_int hi
+     then Big_int_Z.mult_big_int b hi
+     else Big_int_Z.mult_big_int a hi) constant0)),
+  (Big_int_Z.mult_big_int power d))
 
 (** val lower_value :
     claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
@@ -2714,8 +2235,10 @@ let rec add_multiple c x y =
   | [] -> y
   | a :: x' ->
     (match y with
-     | [] -> (Z.mul c a) :: (add_multiple c x' [])
-     | b :: y' -> (Z.add (Z.mul c a) b) :: (add_multiple c x' y'))
+     | [] -> (Big_int_Z.mult_big_int c a) :: (add_multiple c x' [])
+     | b :: y' ->
+       (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c a) b) :: (add_multiple
+                                                                   c x' y'))
 
 (** val scatter :
     Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
@@ -2724,7 +2247,8 @@ let rec add_multiple c x y =
 let scatter c row y =
   foldr (fun e y0 ->
     set_nth Big_int_Z.zero_big_int y0 (fst e)
-      (Z.add (Z.mul c (snd e)) (nth Big_int_Z.zero_big_int y0 (fst e)))) y row
+      (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c (snd e))
+        (nth Big_int_Z.zero_big_int y0 (fst e)))) y row
 
 (** val row_times : matrix -> sparse_row -> Big_int_Z.big_int list **)
 
@@ -2736,14 +2260,17 @@ let row_times y row =
 
 let absolute_dot row w =
   foldr (fun e sum0 ->
-    Z.add (Z.mul (Z.abs (snd e)) (nth Big_int_Z.zero_big_int w (fst e))) sum0)
-    Big_int_Z.zero_big_int row
+    Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (snd e))
+        (nth Big_int_Z.zero_big_int w (fst e))) sum0) Big_int_Z.zero_big_int
+    row
 
 (** val at_end :
     point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let at_end e a b =
-  Z.add (Z.mul (snd e) a) (Z.mul (fst e) b)
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) a)
+    (Big_int_Z.mult_big_int (fst e) b)
 
 (** val row_at_end :
     point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
@@ -2775,8 +2302,8 @@ let pivot_removed q c =
 let inverse_vanishes_off q c l =
   all (fun j ->
     (||) (in_mem (Obj.magic j) (mem (seq_predType nat_eqType) (Obj.magic l)))
-      (Z.eqb (norm1 (nth [] c.right_inverse j)) Big_int_Z.zero_big_int))
-    (iota 0 q.order)
+      (Big_int_Z.eq_big_int (norm1 (nth [] c.right_inverse j))
+        Big_int_Z.zero_big_int)) (iota 0 q.order)
 
 (** val vanishes_elsewhere : pencil -> enclosed_claim -> bool **)
 
@@ -2784,16 +2311,16 @@ let vanishes_elsewhere q c =
   (&&)
     (all (fun j ->
       (||) (box_active q c (Obj.magic j))
-        (Z.eqb (nth Big_int_Z.zero_big_int c.box_center j)
+        (Big_int_Z.eq_big_int (nth Big_int_Z.zero_big_int c.box_center j)
           Big_int_Z.zero_big_int)) (iota 0 q.order))
     (inverse_vanishes_off q c (Obj.magic pivot_removed q c))
 
 (** val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int **)
 
 let margin g p =
-  Z.sub
-    (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
-      (nth Big_int_Z.zero_big_int g p)) (norm1 g)
+  Big_int_Z.sub_big_int
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+      Big_int_Z.unit_big_int) (nth Big_int_Z.zero_big_int g p)) (norm1 g)
 
 (** val dominated :
     enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
@@ -2801,8 +2328,10 @@ let margin g p =
 
 let dominated c p g residual0 rate0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g p))
-    ((&&) (Z.leb (Z.abs residual0) (Z.mul (margin g p) c.box_width))
-      (Z.leb rate0 (Z.mul (margin g p) c.rate_width)))
+    ((&&)
+      (Z.leb (Big_int_Z.abs_big_int residual0)
+        (Big_int_Z.mult_big_int (margin g p) c.box_width))
+      (Z.leb rate0 (Big_int_Z.mult_big_int (margin g p) c.rate_width)))
 
 (** val dominated_at :
     enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
@@ -2810,7 +2339,8 @@ let dominated c p g residual0 rate0 =
     Big_int_Z.big_int -> bool **)
 
 let dominated_at c e p ga gb ra rb rate0 =
-  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Z.mul (snd e) rate0)
+  dominated c p (row_at_end e ga gb) (at_end e ra rb)
+    (Big_int_Z.mult_big_int (snd e) rate0)
 
 (** val dominated_ends :
     enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
@@ -2828,7 +2358,8 @@ let regular_row q c eps p i =
     (row_times c.right_inverse (row_b q i))
     (sparse_dot (row_a q i) c.box_center)
     (sparse_dot (row_b q i) c.box_center)
-    (Z.add (Z.abs (sparse_dot (row_b q i) c.box_center))
+    (Big_int_Z.add_big_int
+      (Big_int_Z.abs_big_int (sparse_dot (row_b q i) c.box_center))
       (absolute_dot (row_b q i) eps))
 
 (** val norms : enclosed_claim -> Big_int_Z.big_int list **)
@@ -2839,7 +2370,8 @@ let norms c =
 (** val widths : enclosed_claim -> Big_int_Z.big_int list **)
 
 let widths c =
-  map0 (fun row -> Z.mul (norm1 row) c.box_width) c.right_inverse
+  map0 (fun row -> Big_int_Z.mult_big_int (norm1 row) c.box_width)
+    c.right_inverse
 
 (** val left_times :
     pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list **)
@@ -2854,7 +2386,7 @@ let left_times q c rows =
 
 let left_value q c rows =
   sumZ (Obj.magic active_list q c) (fun i ->
-    Z.mul (nth Big_int_Z.zero_big_int c.left_null i)
+    Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int c.left_null i)
       (sparse_dot (rows i) c.box_center))
 
 (** val weighted_norm :
@@ -2863,7 +2395,8 @@ let left_value q c rows =
 
 let weighted_norm q c l eps =
   sumZ (Obj.magic pivot_removed q c) (fun j ->
-    Z.mul (Z.abs (nth Big_int_Z.zero_big_int l j))
+    Big_int_Z.mult_big_int
+      (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int l j))
       (nth Big_int_Z.zero_big_int eps j))
 
 (** val above_radius :
@@ -2880,8 +2413,9 @@ let above_radius q c eps la lb va vb e =
     -> point -> bool **)
 
 let below_radius q c eps la lb va vb e =
-  Z.ltb (Z.add (at_end e va vb) (weighted_norm q c (row_at_end e la lb) eps))
-    Big_int_Z.zero_big_int
+  Z.ltb
+    (Big_int_Z.add_big_int (at_end e va vb)
+      (weighted_norm q c (row_at_end e la lb) eps)) Big_int_Z.zero_big_int
 
 (** val opposite_signs :
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
@@ -2912,8 +2446,11 @@ let determinant_changes_sign q c eps =
 
 let one_root_at q c eps la lb vb e =
   Z.ltb
-    (Z.mul (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
-    (Z.mul (snd e) (Z.sub (Z.abs vb) (weighted_norm q c lb eps)))
+    (Big_int_Z.mult_big_int
+      (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
+    (Big_int_Z.mult_big_int (snd e)
+      (Big_int_Z.sub_big_int (Big_int_Z.abs_big_int vb)
+        (weighted_norm q c lb eps)))
 
 (** val one_root_between :
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
@@ -3039,17 +2576,19 @@ let known_solutions q claims =
 let check_limit q r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
-    ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
-      ((&&) (leq (Natural.succ k) (size0 (slip q)))
+    ((&&) (negb (Big_int_Z.eq_big_int (at_slip k) Big_int_Z.zero_big_int))
+      ((&&) (leq (Natural.succ k) (size (slip q)))
         ((&&)
           (all (fun i ->
-            Z.eqb (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
+            Big_int_Z.eq_big_int (sparse_dot (row_a q i) x)
+              Big_int_Z.zero_big_int) q.free)
           (all (fun j ->
             if is_moving (state_of r j)
-            then Z.eqb (sparse_dot (row_b q (nth 0 (slip q) j)) x)
+            then Big_int_Z.eq_big_int
+                   (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                    Big_int_Z.zero_big_int
-            else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
-            (iota 0 (size0 (slip q)))))))
+            else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
+            (iota 0 (size (slip q)))))))
 
 (** val check_blocks :
     pencil -> solution_claim list -> elimination -> whole leaf tree -> point
@@ -3075,7 +2614,7 @@ let check_complete q claims w tr lo hi =
     yield list **)
 
 let found q claims tr lo hi =
-  yields (enclosed_order (size0 (slip q))) (known_solutions q claims) tr
+  yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
     (window lo hi)
 
 (** val left_open : whole leaf tree -> point -> point -> region list **)
@@ -3100,7 +2639,7 @@ type unknown =
 (** val free_number : system -> int **)
 
 let free_number s =
-  size0 s.free_dofs
+  size s.free_dofs
 
 (** val first_dofs : system -> int list **)
 
@@ -3143,21 +2682,25 @@ let column s d =
   else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic first_dofs s))
        then let j = index nat_eqType d (Obj.magic first_dofs s) in
             Some ((addn (free_number s) j),
-            (Z.opp
-              (Z.mul (particle s j).sign_of (fst (particle s j).tangent))))
+            (Big_int_Z.minus_big_int
+              (Big_int_Z.mult_big_int (particle s j).sign_of
+                (fst (particle s j).tangent))))
        else if in_mem d
                  (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
             then let j = index nat_eqType d (Obj.magic second_dofs s) in
                  Some ((addn (free_number s) j),
-                 (Z.opp
-                   (Z.mul (particle s j).sign_of (snd (particle s j).tangent))))
+                 (Big_int_Z.minus_big_int
+                   (Big_int_Z.mult_big_int (particle s j).sign_of
+                     (snd (particle s j).tangent))))
             else None
 
 (** val column_table : system -> (int * Big_int_Z.big_int) option list **)
 
 let column_table s =
   let along = fun part j -> ((addn (free_number s) j),
-    (Z.opp (Z.mul (particle s j).sign_of (part (particle s j).tangent))))
+    (Big_int_Z.minus_big_int
+      (Big_int_Z.mult_big_int (particle s j).sign_of
+        (part (particle s j).tangent))))
   in
   mark (fun k -> (k, s.unit_length)) 0 s.free_dofs
     (mark (along fst) 0 (first_dofs s)
@@ -3168,13 +2711,15 @@ let column_table s =
 
 let columns table0 row =
   pmap (fun e ->
-    Option.map (fun c -> ((fst c), (Z.mul (snd c) (snd e))))
+    Option.map (fun c -> ((fst c), (Big_int_Z.mult_big_int (snd c) (snd e))))
       (nth None table0 (fst e))) row
 
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let multiple c row =
-  if Z.eqb c Big_int_Z.zero_big_int then [] else times_row c row
+  if Big_int_Z.eq_big_int c Big_int_Z.zero_big_int
+  then []
+  else times_row c row
 
 (** val rows_along :
     (int * Big_int_Z.big_int) option list -> (int -> sparse_row) ->
@@ -3188,8 +2733,10 @@ let rows_along table0 rows p factors0 =
     Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
 
 let direction a b p =
-  ((Z.add (Z.mul a (fst p.tangent)) (Z.mul b (fst p.normal))),
-    (Z.add (Z.mul a (snd p.tangent)) (Z.mul b (snd p.normal))))
+  ((Big_int_Z.add_big_int (Big_int_Z.mult_big_int a (fst p.tangent))
+     (Big_int_Z.mult_big_int b (fst p.normal))),
+    (Big_int_Z.add_big_int (Big_int_Z.mult_big_int a (snd p.tangent))
+      (Big_int_Z.mult_big_int b (snd p.normal))))
 
 (** val free_row_b :
     system -> unknown -> (int * Big_int_Z.big_int) option list -> int ->
@@ -3208,10 +2755,12 @@ let slip_row_a s u table0 p =
   match u with
   | Mu ->
     rows_along table0 (k_row s) p
-      (direction (Z.opp p.sign_of) Big_int_Z.zero_big_int p)
+      (direction (Big_int_Z.minus_big_int p.sign_of) Big_int_Z.zero_big_int p)
   | Lambda2 (m, q) ->
     rows_along table0 (k_row s) p
-      (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
+      (direction
+        (Big_int_Z.minus_big_int (Big_int_Z.mult_big_int q p.sign_of))
+        (Big_int_Z.minus_big_int m) p)
 
 (** val slip_row_b :
     system -> unknown -> (int * Big_int_Z.big_int) option list ->
@@ -3221,16 +2770,19 @@ let slip_row_b s u table0 p =
   match u with
   | Mu ->
     rows_along table0 (k_row s) p
-      (direction Big_int_Z.zero_big_int (Z.opp Big_int_Z.unit_big_int) p)
+      (direction Big_int_Z.zero_big_int
+        (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
   | Lambda2 (m, q) ->
     rows_along table0 (m_row s) p
-      (direction (Z.opp (Z.mul q p.sign_of)) (Z.opp m) p)
+      (direction
+        (Big_int_Z.minus_big_int (Big_int_Z.mult_big_int q p.sign_of))
+        (Big_int_Z.minus_big_int m) p)
 
 (** val pencil_by :
     system -> unknown -> (int * Big_int_Z.big_int) option list -> pencil **)
 
 let pencil_by s u table0 =
-  { order = (addn (free_number s) (size0 s.particles)); rows_a =
+  { order = (addn (free_number s) (size s.particles)); rows_a =
     (cat (map0 (fun d -> columns table0 (k_row s d)) s.free_dofs)
       (map0 (fun p -> slip_row_a s u table0 p) s.particles)); rows_b =
     (cat (map0 (fun d -> free_row_b s u table0 d) s.free_dofs)
@@ -3250,16 +2802,20 @@ let columns_in_range s rows =
 (** val inner : planar -> planar -> Big_int_Z.big_int **)
 
 let inner a b =
-  Z.add (Z.mul (fst a) (fst b)) (Z.mul (snd a) (snd b))
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (fst a) (fst b))
+    (Big_int_Z.mult_big_int (snd a) (snd b))
 
 (** val particle_wellformed : system -> slip_particle -> bool **)
 
 let particle_wellformed s p =
-  let unit_square = Z.mul s.unit_length s.unit_length in
-  (&&) (Z.eqb (Z.mul p.sign_of p.sign_of) Big_int_Z.unit_big_int)
-    ((&&) (Z.eqb (inner p.tangent p.tangent) unit_square)
+  let unit_square = Big_int_Z.mult_big_int s.unit_length s.unit_length in
+  (&&)
+    (Big_int_Z.eq_big_int (Big_int_Z.mult_big_int p.sign_of p.sign_of)
+      Big_int_Z.unit_big_int)
+    ((&&) (Big_int_Z.eq_big_int (inner p.tangent p.tangent) unit_square)
       ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
-        (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
+        (Big_int_Z.eq_big_int (inner p.tangent p.normal)
+          Big_int_Z.zero_big_int)))
 
 (** val system_wellformed : system -> unknown -> bool **)
 
@@ -3339,7 +2895,8 @@ let cone_poly u l p =
       (Big_int_Z.zero_big_int :: (along_poly p.normal p (w_poly l)))
   | Lambda2 (m, q) ->
     add_poly
-      (scale_poly (Z.mul q p.sign_of) (along_poly p.tangent p (w_poly l)))
+      (scale_poly (Big_int_Z.mult_big_int q p.sign_of)
+        (along_poly p.tangent p (w_poly l)))
       (scale_poly m (along_poly p.normal p (w_poly l)))
 
 (** val balanced : system -> unknown -> lifted -> int -> bool **)
@@ -3428,7 +2985,7 @@ let moving_with_zero z0 =
 (** val gap : zero_system -> int -> int **)
 
 let gap z0 j =
-  addn (addn (free_number z0.without_zero) (size0 z0.without_zero.particles))
+  addn (addn (free_number z0.without_zero) (size z0.without_zero.particles))
     (muln (Natural.succ (Natural.succ (Natural.succ 0))) j)
 
 (** val right : zero_system -> int -> int **)
@@ -3445,10 +3002,11 @@ let left z0 j =
 
 let frame_wellformed z0 p =
   (&&)
-    (Z.eqb (inner p.tangent p.tangent)
-      (Z.mul z0.without_zero.unit_length z0.without_zero.unit_length))
+    (Big_int_Z.eq_big_int (inner p.tangent p.tangent)
+      (Big_int_Z.mult_big_int z0.without_zero.unit_length
+        z0.without_zero.unit_length))
     ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
-      (Z.eqb (inner p.tangent p.normal) Big_int_Z.zero_big_int))
+      (Big_int_Z.eq_big_int (inner p.tangent p.normal) Big_int_Z.zero_big_int))
 
 (** val zero_wellformed : zero_system -> unknown -> bool **)
 
@@ -3555,9 +3113,9 @@ let zero_variables z0 =
       (leq (Natural.succ i)
         (addn
           (addn (free_number z0.without_zero)
-            (size0 z0.without_zero.particles))
+            (size z0.without_zero.particles))
           (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-            (size0 z0.zero_particles)))))
+            (size z0.zero_particles)))))
 
 (** val check_zero : zero_system -> unknown -> zero_claim -> bool **)
 
@@ -3581,13 +3139,12 @@ let check_zero z0 u c =
                   (at_rest c.lifted_part d)) (iota 0 z0.without_zero.dofs))
               ((&&)
                 (all (particle_states z0.without_zero u c.lifted_part)
-                  (iota 0 (size0 z0.without_zero.particles)))
+                  (iota 0 (size z0.without_zero.particles)))
                 ((&&)
-                  (all (zero_states z0 u c)
-                    (iota 0 (size0 z0.zero_particles)))
+                  (all (zero_states z0 u c) (iota 0 (size z0.zero_particles)))
                   ((||)
                     (has (in_support z0.without_zero c.lifted_part)
-                      (iota 0 (size0 z0.without_zero.particles)))
+                      (iota 0 (size z0.without_zero.particles)))
                     (has (dof_moves c.lifted_part)
                       (iota 0 z0.without_zero.dofs))))))))))
 
@@ -3632,8 +3189,10 @@ let cone_form z0 u p =
       (at_both (k_row z0.without_zero) p
         (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
   | Lambda2 (m, q) ->
-    ((at_both (k_row z0.without_zero) p (direction (Z.mul q p.sign_of) m p)),
-      (at_both (m_row z0.without_zero) p (direction (Z.mul q p.sign_of) m p)))
+    ((at_both (k_row z0.without_zero) p
+       (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
+      (at_both (m_row z0.without_zero) p
+        (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
 
 (** val negative : form -> form **)
 
@@ -3697,11 +3256,11 @@ let all_equations z0 u support0 =
     (cat
       (flatten
         (map0 (fun j -> slip_equations z0 support0 j)
-          (iota 0 (size0 z0.without_zero.particles))))
+          (iota 0 (size z0.without_zero.particles))))
       (cat
         (flatten
           (map0 (fun j -> zero_equations z0 u support0 j)
-            (iota 0 (size0 z0.zero_particles))))
+            (iota 0 (size z0.zero_particles))))
         (map0 (fun d -> (((d, Big_int_Z.unit_big_int) :: []), []))
           (filter (fun d ->
             negb
@@ -3746,7 +3305,7 @@ let zero_inequalities z0 u support0 j =
 let all_inequalities z0 u support0 =
   flatten
     (map0 (fun j -> zero_inequalities z0 u support0 j)
-      (iota 0 (size0 z0.zero_particles)))
+      (iota 0 (size z0.zero_particles)))
 
 (** val all_forms : zero_system -> unknown -> int list -> form list **)
 
@@ -3754,13 +3313,13 @@ let all_forms z0 u support0 =
   cat (all_equations z0 u support0)
     (cat
       (map0 (fun j -> slip_line z0 u j)
-        (iota 0 (size0 z0.without_zero.particles)))
+        (iota 0 (size z0.without_zero.particles)))
       (all_inequalities z0 u support0))
 
 (** val pencil_of_forms : zero_system -> form list -> pencil **)
 
 let pencil_of_forms z0 forms =
-  { order = (size0 forms); rows_a = (map0 fst forms); rows_b =
+  { order = (size forms); rows_a = (map0 fst forms); rows_b =
     (map0 snd forms); free = (iota 0 z0.without_zero.dofs) }
 
 (** val support_pencil : zero_system -> unknown -> int list -> pencil **)
@@ -3773,7 +3332,7 @@ let support_pencil z0 u support0 =
 let slipping_variables z0 support0 =
   map0 (fun j -> addn z0.without_zero.dofs j)
     (filter (fun j -> slides z0 support0 j)
-      (iota 0 (size0 z0.without_zero.particles)))
+      (iota 0 (size z0.without_zero.particles)))
 
 (** val one_half : zero_system -> int list -> int -> bool **)
 
@@ -3805,7 +3364,7 @@ let resting_halves z0 support0 =
             (mem (seq_predType nat_eqType) (Obj.magic support0)))
           (in_mem (Obj.magic right z0 j)
             (mem (seq_predType nat_eqType) (Obj.magic support0))))
-        (iota 0 (size0 z0.zero_particles))))
+        (iota 0 (size z0.zero_particles))))
     (map0 (fun j -> right z0 j)
       (filter (fun j ->
         (&&)
@@ -3813,7 +3372,7 @@ let resting_halves z0 support0 =
             (mem (seq_predType nat_eqType) (Obj.magic support0)))
           (in_mem (Obj.magic left z0 j)
             (mem (seq_predType nat_eqType) (Obj.magic support0))))
-        (iota 0 (size0 z0.zero_particles))))
+        (iota 0 (size z0.zero_particles))))
 
 (** val check_zero_enclosed :
     zero_system -> unknown -> int list -> enclosed_claim -> bool **)
@@ -3821,9 +3380,9 @@ let resting_halves z0 support0 =
 let check_zero_enclosed z0 u support0 c =
   (&&) (zero_wellformed z0 u)
     ((&&) (zero_variables z0 support0)
-      ((&&) (all (one_half z0 support0) (iota 0 (size0 z0.zero_particles)))
+      ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
         ((&&)
-          (eq_op nat_eqType (Obj.magic size0 (all_equations z0 u support0))
+          (eq_op nat_eqType (Obj.magic size (all_equations z0 u support0))
             (Obj.magic z0.without_zero.dofs))
           ((&&)
             (eq_op (seq_eqType nat_eqType) (Obj.magic c.box_support)
@@ -3860,7 +3419,7 @@ let bound_wellformed = function
 (** val row_wellformed : mcp -> mcp_row -> bool **)
 
 let row_wellformed p r =
-  (&&) (all (fun e -> leq (Natural.succ (fst e)) (size0 p)) r.row_m)
+  (&&) (all (fun e -> leq (Natural.succ (fst e)) (size p)) r.row_m)
     ((&&) (bound_wellformed r.lower_bound) (bound_wellformed r.upper_bound))
 
 (** val coordinate : mcp_point -> int -> Big_int_Z.big_int **)
@@ -3871,8 +3430,8 @@ let coordinate z0 i =
 (** val function_value : mcp -> mcp_point -> int -> Big_int_Z.big_int **)
 
 let function_value p z0 i =
-  Z.add (sparse_dot (mcp_row_at p i).row_m z0.numerators)
-    (Z.mul z0.denominator (mcp_row_at p i).row_q)
+  Big_int_Z.add_big_int (sparse_dot (mcp_row_at p i).row_m z0.numerators)
+    (Big_int_Z.mult_big_int z0.denominator (mcp_row_at p i).row_q)
 
 (** val bounds_kept : mcp -> mcp_point -> int -> bool **)
 
@@ -3881,12 +3440,14 @@ let bounds_kept p z0 i =
     (match (mcp_row_at p i).lower_bound with
      | Some p0 ->
        let (num, den) = p0 in
-       Z.leb (Z.mul num z0.denominator) (Z.mul (coordinate z0 i) den)
+       Z.leb (Big_int_Z.mult_big_int num z0.denominator)
+         (Big_int_Z.mult_big_int (coordinate z0 i) den)
      | None -> true)
     (match (mcp_row_at p i).upper_bound with
      | Some p0 ->
        let (num, den) = p0 in
-       Z.leb (Z.mul (coordinate z0 i) den) (Z.mul num z0.denominator)
+       Z.leb (Big_int_Z.mult_big_int (coordinate z0 i) den)
+         (Big_int_Z.mult_big_int num z0.denominator)
      | None -> true)
 
 (** val at_bound : mcp_point -> bound -> int -> bool **)
@@ -3895,7 +3456,8 @@ let at_bound z0 b i =
   match b with
   | Some p0 ->
     let (num, den) = p0 in
-    Z.eqb (Z.mul (coordinate z0 i) den) (Z.mul num z0.denominator)
+    Big_int_Z.eq_big_int (Big_int_Z.mult_big_int (coordinate z0 i) den)
+      (Big_int_Z.mult_big_int num z0.denominator)
   | None -> false
 
 (** val row_holds : mcp -> mcp_point -> int -> bool **)
@@ -3913,8 +3475,8 @@ let row_holds p z0 i =
 let check_point p z0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int z0.denominator)
     ((&&)
-      (eq_op nat_eqType (Obj.magic size0 z0.numerators) (Obj.magic size0 p))
-      (all (row_holds p z0) (iota 0 (size0 p))))
+      (eq_op nat_eqType (Obj.magic size z0.numerators) (Obj.magic size p))
+      (all (row_holds p z0) (iota 0 (size p))))
 
 (** val mcp_wellformed : mcp -> bool **)
 
@@ -3970,16 +3532,20 @@ let rec slope_interval a b d = function
   let (p0, slope) = slope_interval a b d p' in
   let (p1, power) = p0 in
   let (lo, hi) = p1 in
-  let constant0 = Z.mul c (Z.mul power d) in
-  ((((Z.add
-       (if Z.leb Big_int_Z.zero_big_int lo then Z.mul a lo else Z.mul b lo)
-       constant0),
-  (Z.add (if Z.leb Big_int_Z.zero_big_int hi then Z.mul b hi else Z.mul a hi)
-    constant0)), (Z.mul power d)),
-  (Z.add (Z.mul d lo)
+  let constant0 = Big_int_Z.mult_big_int c (Big_int_Z.mult_big_int power d) in
+  ((((Big_int_Z.add_big_int
+       (if Z.leb Big_int_Z.zero_big_int lo
+        then Big_int_Z.mult_big_int a lo
+        else Big_int_Z.mult_big_int b lo) constant0),
+  (Big_int_Z.add_big_int
+    (if Z.leb Big_int_Z.zero_big_int hi
+     then Big_int_Z.mult_big_int b hi
+     else Big_int_Z.mult_big_int a hi) constant0)),
+  (Big_int_Z.mult_big_int power d)),
+  (Big_int_Z.add_big_int (Big_int_Z.mult_big_int d lo)
     (if Z.leb Big_int_Z.zero_big_int slope
-     then Z.mul a slope
-     else Z.mul b slope)))
+     then Big_int_Z.mult_big_int a slope
+     else Big_int_Z.mult_big_int b slope)))
 
 (** val slope_low :
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
@@ -3997,7 +3563,7 @@ let check_value v =
       ((&&) (Z.ltb Big_int_Z.zero_big_int d)
         ((&&) (Z.leb (high_on a a d p) Big_int_Z.zero_big_int)
           ((&&) (Z.leb Big_int_Z.zero_big_int (low_on b b d p))
-            ((||) (Z.eqb a b)
+            ((||) (Big_int_Z.eq_big_int a b)
               (Z.ltb Big_int_Z.zero_big_int (slope_low a b d p)))))))
 
 (** val low_of : value -> polynomial -> Big_int_Z.big_int **)
@@ -4022,7 +3588,7 @@ let reduces_by p g w =
 (** val power_poly : polynomial -> int -> polynomial **)
 
 let power_poly p i =
-  iter0 i (mul_poly p) (Big_int_Z.unit_big_int :: [])
+  iter i (mul_poly p) (Big_int_Z.unit_big_int :: [])
 
 (** val factors : polynomial -> polynomial -> near -> bool **)
 
@@ -4034,7 +3600,7 @@ let factors p g w =
 (** val rational : value -> bool **)
 
 let rational v =
-  Z.eqb v.value_from v.value_to
+  Big_int_Z.eq_big_int v.value_from v.value_to
 
 (** val positive_after : value -> polynomial -> near -> bool **)
 
@@ -4367,19 +3933,23 @@ let check_alone q r pl b =
 
 let inside r pl =
   let above0 = fun v ->
-    Z.leb (Z.mul (fst r.lower) v.value_den) (Z.mul v.value_from (snd r.lower))
+    Z.leb (Big_int_Z.mult_big_int (fst r.lower) v.value_den)
+      (Big_int_Z.mult_big_int v.value_from (snd r.lower))
   in
   let below0 = fun v ->
-    Z.leb (Z.mul v.value_to (snd r.upper)) (Z.mul (fst r.upper) v.value_den)
+    Z.leb (Big_int_Z.mult_big_int v.value_to (snd r.upper))
+      (Big_int_Z.mult_big_int (fst r.upper) v.value_den)
   in
   (match pl with
    | PointAt v -> (&&) (above0 v) (below0 v)
    | Between (v, v') ->
      (&&) (above0 v)
        ((&&) (below0 v')
-         (Z.ltb (Z.mul v.value_to v'.value_den)
-           (Z.mul v'.value_from v.value_den)))
-   | Above v -> (&&) (above0 v) (Z.eqb (snd r.upper) Big_int_Z.zero_big_int))
+         (Z.ltb (Big_int_Z.mult_big_int v.value_to v'.value_den)
+           (Big_int_Z.mult_big_int v'.value_from v.value_den)))
+   | Above v ->
+     (&&) (above0 v)
+       (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
 
 (** val check_reason : pencil -> region -> place -> reason -> bool **)
 
@@ -4410,8 +3980,8 @@ let leaf_places l =
 let rec reaches_end r v = function
 | Stop ->
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-    (Z.leb (Z.mul (fst r.upper) v.value_den)
-      (Z.mul v.value_from (snd r.upper)))
+    (Z.leb (Big_int_Z.mult_big_int (fst r.upper) v.value_den)
+      (Big_int_Z.mult_big_int v.value_from (snd r.upper)))
 | Last _ -> true
 | Next (_, v', _, c') -> reaches_end r v' c'
 
@@ -4421,8 +3991,8 @@ let check_support q r l =
   (&&) (wellformed q)
     ((&&) (decided_region q r)
       ((&&)
-        (Z.leb (Z.mul l.first_value.value_to (snd r.lower))
-          (Z.mul (fst r.lower) l.first_value.value_den))
+        (Z.leb (Big_int_Z.mult_big_int l.first_value.value_to (snd r.lower))
+          (Big_int_Z.mult_big_int (fst r.lower) l.first_value.value_den))
         ((&&) (reaches_end r l.first_value l.further)
           (all (fun pe -> check_reason q r (fst pe) (snd pe)) (leaf_places l)))))
 
@@ -4444,15 +4014,16 @@ type family = region * holding
 (** val same_value : value -> value -> bool **)
 
 let same_value v v' =
-  (&&) (Z.eqb v.value_from v'.value_from)
-    ((&&) (Z.eqb v.value_to v'.value_to)
-      ((&&) (Z.eqb v.value_den v'.value_den)
+  (&&) (Big_int_Z.eq_big_int v.value_from v'.value_from)
+    ((&&) (Big_int_Z.eq_big_int v.value_to v'.value_to)
+      ((&&) (Big_int_Z.eq_big_int v.value_den v'.value_den)
         (same_poly v.value_poly v'.value_poly)))
 
 (** val ends_before : value -> value -> bool **)
 
 let ends_before v v' =
-  Z.ltb (Z.mul v.value_to v'.value_den) (Z.mul v'.value_from v.value_den)
+  Z.ltb (Big_int_Z.mult_big_int v.value_to v'.value_den)
+    (Big_int_Z.mult_big_int v'.value_from v.value_den)
 
 (** val away : value -> place -> bool **)
 
@@ -4503,7 +4074,7 @@ let pairs =
     pencil -> region list -> support_leaf option list -> bool **)
 
 let check_supports q rs ls =
-  (&&) (eq_op nat_eqType (Obj.magic size0 rs) (Obj.magic size0 ls))
+  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size ls))
     (all (fun rl ->
       match snd rl with
       | Some l ->
@@ -4554,13 +4125,13 @@ let belongs n y f =
 (** val add_lists :
     ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
 
-let rec add_lists add0 p q =
+let rec add_lists add p q =
   match p with
   | [] -> q
   | a :: p' ->
     (match q with
      | [] -> p
-     | b :: q' -> (add0 a b) :: (add_lists add0 p' q'))
+     | b :: q' -> (add a b) :: (add_lists add p' q'))
 
 (** val add_matrix : matrix -> matrix -> matrix **)
 
@@ -4618,27 +4189,71 @@ let cross_series n x y =
 (** val squares : Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let squares x =
-  foldr (fun a s -> Z.add (Z.mul a a) s) Big_int_Z.zero_big_int x
+  foldr (fun a s -> Big_int_Z.add_big_int (Big_int_Z.mult_big_int a a) s)
+    Big_int_Z.zero_big_int x
+
+(** val root_bits : Big_int_Z.big_int **)
+
+let root_bits =
+  let square = fun a -> Big_int_Z.mult_big_int a a in
+  square
+    (square
+      (square
+        (square
+          (square (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+            (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+            (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+            (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+            Big_int_Z.unit_big_int))))))))))))
+
+(** val refined :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let refined x s =
+  if (&&) (Z.ltb x root_bits)
+       (Z.ltb x
+         (Big_int_Z.mult_big_int
+           (Big_int_Z.sub_big_int s Big_int_Z.unit_big_int)
+           (Big_int_Z.sub_big_int s Big_int_Z.unit_big_int)))
+  then Big_int_Z.sub_big_int s Big_int_Z.unit_big_int
+  else s
+
+(** val root_above :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+
+let rec root_above digits x =
+  (fun f2p1 f2p f1 p ->
+  if Big_int_Z.le_big_int p Big_int_Z.unit_big_int then f1 () else
+  let (q,r) = Big_int_Z.quomod_big_int p (Big_int_Z.big_int_of_int 2) in
+  if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
+    (fun d ->
+    refined x
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+        Big_int_Z.unit_big_int)
+        (root_above d
+          (Z.div x (Big_int_Z.mult_int_big_int 2
+            (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))))
+    (fun d ->
+    refined x
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+        Big_int_Z.unit_big_int)
+        (root_above d
+          (Z.div x (Big_int_Z.mult_int_big_int 2
+            (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))))
+    (fun _ -> Big_int_Z.add_big_int x Big_int_Z.unit_big_int)
+    digits
 
 (** val root_up : Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let root_up x =
-  let k =
-    Z.sub
-      (Z.div (Z.log2 x) (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
-      (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-      (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-      (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-      Big_int_Z.unit_big_int))))))
-  in
-  if Z.leb k Big_int_Z.zero_big_int
-  then Z.sqrt_up x
-  else let unit0 =
-         Z.pow (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) k
-       in
-       Z.mul
-         (Z.sqrt_up
-           (Z.add (Z.div x (Z.mul unit0 unit0)) Big_int_Z.unit_big_int)) unit0
+  (fun fO fp fn z -> let s = Big_int_Z.sign_big_int z in
+  if s = 0 then fO () else if s > 0 then fp z
+  else fn (Big_int_Z.minus_big_int z))
+    (fun _ -> Big_int_Z.zero_big_int)
+    (fun p ->
+    root_above p (Big_int_Z.sub_big_int x Big_int_Z.unit_big_int))
+    (fun _ -> Big_int_Z.zero_big_int)
+    x
 
 (** val norm2 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
@@ -4662,9 +4277,10 @@ let rec derivative = function
 
 let homogeneous x y p =
   foldr (fun c s ->
-    let power = Z.mul (snd s) y in
-    ((Z.add (Z.mul c power) (Z.mul x (fst s))), power))
-    (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) p
+    let power = Big_int_Z.mult_big_int (snd s) y in
+    ((Big_int_Z.add_big_int (Big_int_Z.mult_big_int c power)
+       (Big_int_Z.mult_big_int x (fst s))), power)) (Big_int_Z.zero_big_int,
+    Big_int_Z.unit_big_int) p
 
 (** val substituted :
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
@@ -4672,8 +4288,8 @@ let homogeneous x y p =
 
 let substituted x v y p =
   foldr (fun c s ->
-    let power = Z.mul (snd s) y in
-    ((add_poly ((Z.mul c power) :: [])
+    let power = Big_int_Z.mult_big_int (snd s) y in
+    ((add_poly ((Big_int_Z.mult_big_int c power) :: [])
        (add_poly (scale_poly x (fst s))
          (Big_int_Z.zero_big_int :: (scale_poly v (fst s))))), power)) ([],
     Big_int_Z.unit_big_int) p
@@ -4682,12 +4298,12 @@ let substituted x v y p =
 
 let rec spread_of = function
 | [] -> Big_int_Z.zero_big_int
-| _ :: p' -> Z.add (norm1 p') (spread_of p')
+| _ :: p' -> Big_int_Z.add_big_int (norm1 p') (spread_of p')
 
 (** val total : polynomial -> Big_int_Z.big_int **)
 
 let total p =
-  foldr Z.add Big_int_Z.zero_big_int p
+  foldr Big_int_Z.add_big_int Big_int_Z.zero_big_int p
 
 (** val constant_of : polynomial -> Big_int_Z.big_int **)
 
@@ -4778,19 +4394,20 @@ let residual_series a f0 f1 y x =
 let center_series q a r =
   let u = a.anchor_unit in
   add_series
-    (scale_series (Z.mul u u)
+    (scale_series (Big_int_Z.mult_big_int u u)
       ((ss_block q (row_0 q a)) :: ((ss_block q (row_1 q a)) :: [])))
     (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
       (add_series
         (scale_series u
-          (cross_series (size0 (slip q))
+          (cross_series (size (slip q))
             ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
-            a.anchor_right)) (cross_series (size0 (slip q)) a.anchor_left r)))
+            a.anchor_right)) (cross_series (size (slip q)) a.anchor_left r)))
 
 (** val row_sum : sparse_row -> Big_int_Z.big_int **)
 
 let row_sum row =
-  foldr (fun e s -> Z.add (Z.abs (snd e)) s) Big_int_Z.zero_big_int row
+  foldr (fun e s -> Big_int_Z.add_big_int (Big_int_Z.abs_big_int (snd e)) s)
+    Big_int_Z.zero_big_int row
 
 (** val expand_from :
     pencil -> anchor -> sparse_row list -> matrix list -> matrix list ->
@@ -4798,14 +4415,14 @@ let row_sum row =
 
 let expand_from q a f1 l r =
   { series_z = (center_series q a r); left_norms =
-    (map0 (fun i -> norms0 l i) (iota 0 (size0 (slip q)))); right_norms =
-    (map0 (fun j -> norms0 r j) (iota 0 (size0 (slip q)))); drift =
-    (foldr Z.max Big_int_Z.zero_big_int (map0 row_sum f1)) }
+    (map0 (fun i -> norms0 l i) (iota 0 (size (slip q)))); right_norms =
+    (map0 (fun j -> norms0 r j) (iota 0 (size (slip q)))); drift =
+    (foldr Big_int_Z.max_big_int Big_int_Z.zero_big_int (map0 row_sum f1)) }
 
 (** val small : pencil -> matrix list -> bool **)
 
 let small q l =
-  all (fun m -> leq (size0 m) (size0 q.free)) l
+  all (fun m -> leq (size m) (size q.free)) l
 
 (** val expand : pencil -> anchor -> anchor_family option **)
 
@@ -4828,7 +4445,7 @@ let expand q a =
            (all (fun i ->
              Z.ltb Big_int_Z.zero_big_int
                (nth Big_int_Z.zero_big_int a.anchor_scale i))
-             (iota 0 (size0 (slip q))))
+             (iota 0 (size (slip q))))
            ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
   then Some (expand_from q a f1 l r)
   else None
@@ -4836,43 +4453,51 @@ let expand q a =
 (** val interval_width : point -> point -> Big_int_Z.big_int **)
 
 let interval_width lo hi =
-  Z.sub (Z.mul (fst hi) (snd lo)) (Z.mul (fst lo) (snd hi))
+  Big_int_Z.sub_big_int (Big_int_Z.mult_big_int (fst hi) (snd lo))
+    (Big_int_Z.mult_big_int (fst lo) (snd hi))
 
 (** val offset : anchor -> point -> point -> Big_int_Z.big_int **)
 
 let offset a lo hi =
-  Z.mul
-    (Z.sub (Z.mul (fst lo) (snd a.anchor_center))
-      (Z.mul (fst a.anchor_center) (snd lo))) (snd hi)
+  Big_int_Z.mult_big_int
+    (Big_int_Z.sub_big_int
+      (Big_int_Z.mult_big_int (fst lo) (snd a.anchor_center))
+      (Big_int_Z.mult_big_int (fst a.anchor_center) (snd lo))) (snd hi)
 
 (** val extent : anchor -> point -> point -> Big_int_Z.big_int **)
 
 let extent a lo hi =
-  Z.mul (interval_width lo hi) (snd a.anchor_center)
+  Big_int_Z.mult_big_int (interval_width lo hi) (snd a.anchor_center)
 
 (** val unit_y : anchor -> point -> point -> Big_int_Z.big_int **)
 
 let unit_y a lo hi =
-  Z.mul (Z.mul (snd lo) (snd hi)) (snd a.anchor_center)
+  Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd lo) (snd hi))
+    (snd a.anchor_center)
 
 (** val reach : anchor -> point -> point -> Big_int_Z.big_int **)
 
 let reach a lo hi =
-  Z.max (Z.abs (offset a lo hi))
-    (Z.abs (Z.add (offset a lo hi) (extent a lo hi)))
+  Big_int_Z.max_big_int (Big_int_Z.abs_big_int (offset a lo hi))
+    (Big_int_Z.abs_big_int
+      (Big_int_Z.add_big_int (offset a lo hi) (extent a lo hi)))
 
 (** val bound_n :
     anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
 
 let bound_n a low_a low_b lo =
-  Z.mul (snd a.anchor_center)
-    (Z.add (Z.mul (Z.mul low_a.bound_at low_b.bound_times) (snd lo))
-      (Z.mul (Z.mul (fst lo) low_b.bound_at) low_a.bound_times))
+  Big_int_Z.mult_big_int (snd a.anchor_center)
+    (Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int low_a.bound_at low_b.bound_times) (snd lo))
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int (fst lo) low_b.bound_at) low_a.bound_times))
 
 (** val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int **)
 
 let bound_d0 low_a low_b lo =
-  Z.mul (Z.mul low_a.bound_times low_b.bound_times) (snd lo)
+  Big_int_Z.mult_big_int
+    (Big_int_Z.mult_big_int low_a.bound_times low_b.bound_times) (snd lo)
 
 (** val proper_interval :
     anchor -> form_bound -> form_bound -> point -> point -> bool **)
@@ -4891,8 +4516,11 @@ let proper_interval a low_a low_b lo hi =
 
 let remainder_radius a low_a low_b lo power nl nr =
   divide_up
-    (Z.mul (Z.mul (Z.mul power (fst nl)) (fst nr)) (bound_d0 low_a low_b lo))
-    (Z.mul (Z.mul (snd nl) (snd nr)) (bound_n a low_a low_b lo))
+    (Big_int_Z.mult_big_int
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (fst nl))
+        (fst nr)) (bound_d0 low_a low_b lo))
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd nl) (snd nr))
+      (bound_n a low_a low_b lo))
 
 (** val remainder_slope :
     anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
@@ -4902,28 +4530,41 @@ let remainder_radius a low_a low_b lo power nl nr =
     (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
 
 let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
-  Z.add
-    (Z.add
+  Big_int_Z.add_big_int
+    (Big_int_Z.add_big_int
       (divide_up
-        (Z.mul
-          (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst dl)) (fst nr))
-          (bound_d0 low_a low_b lo))
-        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd dl)) (snd nr))
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int power (extent a lo hi)) (fst dl))
+            (fst nr)) (bound_d0 low_a low_b lo))
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int (unit_y a lo hi) (snd dl)) (snd nr))
           (bound_n a low_a low_b lo)))
       (divide_up
-        (Z.mul
-          (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst nl)) (fst dr))
-          (bound_d0 low_a low_b lo))
-        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd nl)) (snd dr))
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
+            (fst dr)) (bound_d0 low_a low_b lo))
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd dr))
           (bound_n a low_a low_b lo))))
     (divide_up
-      (Z.mul
-        (Z.mul
-          (Z.mul
-            (Z.mul (Z.mul (Z.mul power (extent a lo hi)) (fst nl)) (fst nr))
-            fam.drift) (bound_d0 low_a low_b lo)) (bound_d0 low_a low_b lo))
-      (Z.mul
-        (Z.mul (Z.mul (Z.mul (unit_y a lo hi) (snd nl)) (snd nr))
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int
+                (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
+              (fst nr)) fam.drift) (bound_d0 low_a low_b lo))
+        (bound_d0 low_a low_b lo))
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd nr))
           (bound_n a low_a low_b lo)) (bound_n a low_a low_b lo)))
 
 (** val entry_of :
@@ -4937,24 +4578,26 @@ let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
   let c = substituted (offset a lo hi) (extent a lo hi) (unit_y a lo hi) z0 in
   let rb =
     if slopes
-    then Z.add
-           (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-             (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)))
-             (spread0 (fst c)))
-           (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-             Big_int_Z.unit_big_int))
+    then Big_int_Z.add_big_int
+           (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+             (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             Big_int_Z.unit_big_int))) (spread0 (fst c)))
+           (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+             (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
              (remainder_slope a low_a low_b fam lo hi (snd c) nl nr dl dr))
     else Big_int_Z.zero_big_int
   in
   { local_a =
-  (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-    Big_int_Z.unit_big_int)) (constant_of (fst c))); local_b =
-  (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-    Big_int_Z.unit_big_int)) (chord_of (fst c))); local_ra =
-  (Z.add
-    (Z.add (spread0 (fst c))
-      (Z.mul (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-        Big_int_Z.unit_big_int))
+  (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+    (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
+    (constant_of (fst c))); local_b =
+  (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+    (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)) (chord_of (fst c)));
+  local_ra =
+  (Big_int_Z.add_big_int
+    (Big_int_Z.add_big_int (spread0 (fst c))
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+        (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
         (remainder_radius a low_a low_b lo (snd c) nl nr))) rb); local_rb =
   rb }
 
@@ -4962,11 +4605,15 @@ let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
     Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry **)
 
 let rounded grain scale e =
-  { local_a = (Z.div (Z.mul scale e.local_a) grain); local_b =
-    (Z.div (Z.mul scale e.local_b) grain); local_ra =
-    (Z.add (divide_up (Z.mul scale e.local_ra) grain) Big_int_Z.unit_big_int);
-    local_rb =
-    (Z.add (divide_up (Z.mul scale e.local_rb) grain) Big_int_Z.unit_big_int) }
+  { local_a = (Z.div (Big_int_Z.mult_big_int scale e.local_a) grain);
+    local_b = (Z.div (Big_int_Z.mult_big_int scale e.local_b) grain);
+    local_ra =
+    (Big_int_Z.add_big_int
+      (divide_up (Big_int_Z.mult_big_int scale e.local_ra) grain)
+      Big_int_Z.unit_big_int); local_rb =
+    (Big_int_Z.add_big_int
+      (divide_up (Big_int_Z.mult_big_int scale e.local_rb) grain)
+      Big_int_Z.unit_big_int) }
 
 (** val local_entries :
     int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
@@ -5002,8 +4649,10 @@ let local_pencil ns a low_a low_b fam lo hi slopes grain =
 (** val local_point : point -> point -> point -> point **)
 
 let local_point lo hi e =
-  ((Z.mul (Z.sub (Z.mul (fst e) (snd lo)) (Z.mul (fst lo) (snd e))) (snd hi)),
-    (Z.mul (snd e) (interval_width lo hi)))
+  ((Big_int_Z.mult_big_int
+     (Big_int_Z.sub_big_int (Big_int_Z.mult_big_int (fst e) (snd lo))
+       (Big_int_Z.mult_big_int (fst lo) (snd e))) (snd hi)),
+    (Big_int_Z.mult_big_int (snd e) (interval_width lo hi)))
 
 (** val local_isolation : point -> point -> isolation -> isolation **)
 
@@ -5147,16 +4796,18 @@ let finite_root = function
 let check_direction q r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
-    ((&&) (negb (Z.eqb (at_slip k) Big_int_Z.zero_big_int))
+    ((&&) (negb (Big_int_Z.eq_big_int (at_slip k) Big_int_Z.zero_big_int))
       ((&&)
         (all (fun i ->
-          Z.eqb (sparse_dot (row_b q i) x) Big_int_Z.zero_big_int) q.free)
+          Big_int_Z.eq_big_int (sparse_dot (row_b q i) x)
+            Big_int_Z.zero_big_int) q.free)
         (all (fun j ->
           if is_moving (state_of r j)
-          then Z.eqb (sparse_dot (row_b q (nth 0 (slip q) j)) x)
+          then Big_int_Z.eq_big_int
+                 (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                  Big_int_Z.zero_big_int
-          else Z.eqb (at_slip j) Big_int_Z.zero_big_int)
-          (iota 0 (size0 (slip q))))))
+          else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
+          (iota 0 (size (slip q))))))
 
 (** val at_anchor :
     anchoring -> anchor_family option list -> int -> region -> (bool ->
@@ -5179,8 +4830,8 @@ let at_anchor w families0 n r check =
 
 let leaf_at q grain e reverse a low_a low_b fam r =
   (&&) ((||) (negb reverse) (finite_root e))
-    (check_anchored (size0 (slip q)) a low_a low_b fam r.lower r.upper r
-      grain (if reverse then swap_leaf e else e))
+    (check_anchored (size (slip q)) a low_a low_b fam r.lower r.upper r grain
+      (if reverse then swap_leaf e else e))
 
 (** val claim_at :
     pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor ->
@@ -5189,8 +4840,8 @@ let leaf_at q grain e reverse a low_a low_b fam r =
 let claim_at q grain c q0 reverse a low_a low_b fam r =
   (&&)
     ((||) (negb reverse) (Z.ltb Big_int_Z.zero_big_int (fst q0.known_from)))
-    (check_anchored_claim (size0 (slip q)) a low_a low_b fam r.lower r.upper
-      r grain c (if reverse then swap_known q0 else q0))
+    (check_anchored_claim (size (slip q)) a low_a low_b fam r.lower r.upper r
+      grain c (if reverse then swap_known q0 else q0))
 
 (** val limit_at :
     pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool
@@ -5198,9 +4849,9 @@ let claim_at q grain c q0 reverse a low_a low_b fam r =
 
 let limit_at q grain c x reverse a low_a low_b fam r =
   (&&) reverse
-    ((&&) (Z.eqb (fst r.lower) Big_int_Z.zero_big_int)
+    ((&&) (Big_int_Z.eq_big_int (fst r.lower) Big_int_Z.zero_big_int)
       ((&&) (check_direction q r c.pin_pivot x)
-        (check_anchored_limit (size0 (slip q)) a low_a low_b fam r.lower
+        (check_anchored_limit (size (slip q)) a low_a low_b fam r.lower
           r.upper r grain c)))
 
 (** val check_varying_leaf :
@@ -5213,7 +4864,7 @@ let check_varying_leaf q w families0 solutions r = function
     (at_anchor w families0 n (extended r h) (leaf_at q grain e))
 | OfClaim (n, grain, h, c, k) ->
   (&&) (reaches r h)
-    ((&&) (leq (Natural.succ k) (size0 solutions))
+    ((&&) (leq (Natural.succ k) (size solutions))
       (at_anchor w families0 n (extended r h)
         (claim_at q grain c (known_at solutions k))))
 | OfLimit (n, grain, h, c, x) ->
@@ -5226,10 +4877,9 @@ let check_varying_leaf q w families0 solutions r = function
 
 let bounds_hold q w =
   (&&)
-    (bounded_rows (Obj.magic size0 q.free) (ff_block q (row_a q))
+    (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
       w.stiffness_bound)
-    (bounded_rows (Obj.magic size0 q.free) (ff_block q (row_b q))
-      w.mass_bound)
+    (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q)) w.mass_bound)
 
 (** val check_varying :
     pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point
@@ -5241,13 +4891,13 @@ let check_varying q claims w tr lo hi =
   (&&) (wellformed q)
     ((&&) ((||) (nilp w.anchors) (bounds_hold q w))
       ((&&) (all (check_solution_claim q) claims)
-        (check_tree (size0 (slip q))
+        (check_tree (size (slip q))
           (check_varying_leaf q w families0 solutions) tr (window lo hi))))
 
 (** val claim_yield : pencil -> region -> known -> yield option **)
 
 let claim_yield q r q0 =
-  if supports_region (enclosed_order (size0 (slip q))) r q0
+  if supports_region (enclosed_order (size (slip q))) r q0
   then Some { yield_region = r; yield_from = q0.known_from; yield_to =
          q0.known_to }
   else None
@@ -5329,9 +4979,9 @@ let still_open c lo hi ls =
     option list -> yield list option **)
 
 let all_solutions q claims c lo hi ls =
-  distinct_yields (size0 (slip q)) lo hi
+  distinct_yields (size (slip q)) lo hi
     (filter (fun y ->
-      negb (has (belongs (size0 (slip q)) y) (families c lo hi ls)))
+      negb (has (belongs (size (slip q)) y) (families c lo hi ls)))
       (cat (regions_found q claims c lo hi)
         (isolated_of (regions_open c lo hi) ls)))
 
@@ -5406,7 +5056,7 @@ let combine_rows c rows =
 
 let against_right m w p =
   sumZ (iota 0 (Natural.succ m)) (fun j ->
-    Z.mul (nth Big_int_Z.zero_big_int p j)
+    Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int p j)
       (nth Big_int_Z.zero_big_int w.regular_right j))
 
 (** val against_radius :
@@ -5414,8 +5064,8 @@ let against_right m w p =
 
 let against_radius m w r =
   sumZ (iota 0 (Natural.succ m)) (fun j ->
-    Z.mul (nth Big_int_Z.zero_big_int r j)
-      (Z.abs (nth Big_int_Z.zero_big_int w.regular_right j)))
+    Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int r j)
+      (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int w.regular_right j)))
 
 (** val off_pivot :
     int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
@@ -5423,10 +5073,10 @@ let against_radius m w r =
 
 let off_pivot m w u i p r =
   sumZ (iota 0 m) (fun j ->
-    Z.mul
-      (Z.add
-        (Z.abs
-          (Z.sub (unit_entry u i j)
+    Big_int_Z.mult_big_int
+      (Big_int_Z.add_big_int
+        (Big_int_Z.abs_big_int
+          (Big_int_Z.sub_big_int (unit_entry u i j)
             (nth Big_int_Z.zero_big_int p (Natural.succ j))))
         (nth Big_int_Z.zero_big_int r (Natural.succ j)))
       (nth Big_int_Z.zero_big_int w.regular_widths j))
@@ -5437,11 +5087,12 @@ let off_pivot m w u i p r =
 let regular_row0 m w m0 rd u i =
   let y = nth [] w.regular_inverse i in
   let p = combine_rows y (behead m0) in
-  let r = combine_rows (map0 Z.abs y) (behead rd) in
+  let r = combine_rows (map0 Big_int_Z.abs_big_int y) (behead rd) in
   Z.ltb
-    (Z.add (off_pivot m w u i p r)
-      (Z.add (Z.abs (against_right m w p)) (against_radius m w r)))
-    (Z.mul u (nth Big_int_Z.zero_big_int w.regular_widths i))
+    (Big_int_Z.add_big_int (off_pivot m w u i p r)
+      (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (against_right m w p))
+        (against_radius m w r)))
+    (Big_int_Z.mult_big_int u (nth Big_int_Z.zero_big_int w.regular_widths i))
 
 (** val regular_rows :
     int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
@@ -5459,15 +5110,17 @@ let regular_rows m w m0 rd u =
     Big_int_Z.big_int **)
 
 let row_slack m w p r =
-  Z.add (against_radius m w r) (off_pivot m w Big_int_Z.zero_big_int 0 p r)
+  Big_int_Z.add_big_int (against_radius m w r)
+    (off_pivot m w Big_int_Z.zero_big_int 0 p r)
 
 (** val regular_sign : int -> regular -> matrix -> matrix -> bool **)
 
 let regular_sign m w m0 rd =
   let p = combine_rows w.regular_left m0 in
-  let r = combine_rows (map0 Z.abs w.regular_left) rd in
+  let r = combine_rows (map0 Big_int_Z.abs_big_int w.regular_left) rd in
   let h = against_right m w p in
-  Z.ltb (row_slack m w p r) (if w.regular_minus then Z.opp h else h)
+  Z.ltb (row_slack m w p r)
+    (if w.regular_minus then Big_int_Z.minus_big_int h else h)
 
 (** val regular_order : enclosed -> region -> Equality.sort -> int list **)
 
@@ -5506,14 +5159,14 @@ let corner_radius p p' r l c =
     enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
 
 let rows_at p p' r l w c =
-  regular_rows (pred (size0 l)) w (corner_center p p' r l c)
+  regular_rows (pred (size l)) w (corner_center p p' r l c)
     (corner_radius p p' r l c) (nth Big_int_Z.zero_big_int w.regular_units c)
 
 (** val sign_at0 :
     enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
 
 let sign_at0 p p' r l w c =
-  regular_sign (pred (size0 l)) w (corner_center p p' r l c)
+  regular_sign (pred (size l)) w (corner_center p p' r l c)
     (corner_radius p p' r l c)
 
 (** val four_corners : int list **)
@@ -5549,21 +5202,22 @@ let zero_seconds z0 =
 (** val turned : slip_particle -> planar **)
 
 let turned p =
-  ((Z.opp (snd p.tangent)), (fst p.tangent))
+  ((Big_int_Z.minus_big_int (snd p.tangent)), (fst p.tangent))
 
 (** val unit_normal : slip_particle -> planar **)
 
 let unit_normal p =
   if Z.ltb Big_int_Z.zero_big_int (inner p.normal (turned p))
   then turned p
-  else ((Z.opp (fst (turned p))), (Z.opp (snd (turned p))))
+  else ((Big_int_Z.minus_big_int (fst (turned p))),
+         (Big_int_Z.minus_big_int (snd (turned p))))
 
 (** val three_columns :
     zero_system -> int -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row **)
 
 let three_columns z0 j n t =
-  ((gap z0 j), (Z.opp n)) :: (((right z0 j), t) :: (((left z0 j),
-    (Z.opp t)) :: []))
+  ((gap z0 j), (Big_int_Z.minus_big_int n)) :: (((right z0 j),
+    t) :: (((left z0 j), (Big_int_Z.minus_big_int t)) :: []))
 
 (** val zero_columns : zero_system -> Equality.sort -> sparse_row **)
 
@@ -5590,7 +5244,7 @@ let zero_table z0 =
 let zero_row table0 row =
   flatten
     (map0 (fun e ->
-      map0 (fun c -> ((fst c), (Z.mul (snd c) (snd e))))
+      map0 (fun c -> ((fst c), (Big_int_Z.mult_big_int (snd c) (snd e))))
         (nth [] table0 (fst e))) row)
 
 (** val row_multiple : unknown -> Big_int_Z.big_int **)
@@ -5602,8 +5256,8 @@ let row_multiple = function
 (** val scaled_normal : unknown -> slip_particle -> planar **)
 
 let scaled_normal u p =
-  ((Z.mul (row_multiple u) (fst (unit_normal p))),
-    (Z.mul (row_multiple u) (snd (unit_normal p))))
+  ((Big_int_Z.mult_big_int (row_multiple u) (fst (unit_normal p))),
+    (Big_int_Z.mult_big_int (row_multiple u) (snd (unit_normal p))))
 
 (** val zero_forms : zero_system -> unknown -> int -> form list **)
 
@@ -5624,7 +5278,7 @@ let variable_forms z0 u =
     (cat
       (map0 (fun p -> negative (cone_form z0 u p)) z0.without_zero.particles)
       (flatten
-        (map0 (fun j -> zero_forms z0 u j) (iota 0 (size0 z0.zero_particles)))))
+        (map0 (fun j -> zero_forms z0 u j) (iota 0 (size z0.zero_particles)))))
 
 (** val pencil_by_table :
     zero_system -> unknown -> sparse_row list -> pencil **)
@@ -5632,9 +5286,9 @@ let variable_forms z0 u =
 let pencil_by_table z0 u table0 =
   { order =
     (addn
-      (addn (free_number z0.without_zero) (size0 z0.without_zero.particles))
+      (addn (free_number z0.without_zero) (size z0.without_zero.particles))
       (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-        (size0 z0.zero_particles))); rows_a =
+        (size z0.zero_particles))); rows_a =
     (map0 (fun f -> zero_row table0 (fst f)) (variable_forms z0 u)); rows_b =
     (map0 (fun f -> zero_row table0 (snd f)) (variable_forms z0 u)); free =
     (iota 0 (free_number z0.without_zero)) }
@@ -5657,9 +5311,9 @@ let part_friction z0 =
 (** val slip_number : zero_system -> int **)
 
 let slip_number z0 =
-  addn (size0 z0.without_zero.particles)
+  addn (size z0.without_zero.particles)
     (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-      (size0 z0.zero_particles))
+      (size z0.zero_particles))
 
 (** val half_state : zero_system -> region -> int -> state **)
 
@@ -5672,7 +5326,7 @@ let halves_apart z0 r =
   all (fun j ->
     (||) (is_resting (half_state z0 r (right z0 j)))
       (is_resting (half_state z0 r (left z0 j))))
-    (iota 0 (size0 z0.zero_particles))
+    (iota 0 (size z0.zero_particles))
 
 (** val both_halves : zero_system -> region -> bool **)
 
@@ -5680,7 +5334,7 @@ let both_halves z0 r =
   has (fun j ->
     (&&) (is_moving (half_state z0 r (right z0 j)))
       (is_moving (half_state z0 r (left z0 j))))
-    (iota 0 (size0 z0.zero_particles))
+    (iota 0 (size z0.zero_particles))
 
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
@@ -5724,10 +5378,10 @@ let same_weights z0 a b =
     (eq_op bool_eqType (Obj.magic a.whole_negative)
       (Obj.magic b.whole_negative))
     (all (fun i ->
-      Z.eqb (nth Big_int_Z.unit_big_int a.whole_weights i)
+      Big_int_Z.eq_big_int (nth Big_int_Z.unit_big_int a.whole_weights i)
         (nth Big_int_Z.unit_big_int b.whole_weights i))
       (iota (free_number (freed z0).without_zero)
-        (size0 z0.without_zero.particles)))
+        (size z0.without_zero.particles)))
 
 (** val freed_weight :
     zero_system -> whole -> Equality.sort -> Big_int_Z.big_int **)
@@ -5744,7 +5398,7 @@ let zero_weights z0 a =
       (&&)
         (Z.leb Big_int_Z.zero_big_int
           (freed_weight z0 a (Obj.magic p.first_dof)))
-        (Z.eqb (freed_weight z0 a (Obj.magic p.first_dof))
+        (Big_int_Z.eq_big_int (freed_weight z0 a (Obj.magic p.first_dof))
           (freed_weight z0 a (Obj.magic p.second_dof)))) z0.zero_particles)
 
 (** val check_whole_leaf :
@@ -5873,8 +5527,8 @@ let check_about z0 low_a low_b b fams grain r low high tr =
   (&&) (proper_interval a low_a low_b r.lower r.upper)
     ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
       ((&&)
-        (eq_op nat_eqType (Obj.magic size0 (fst fams).series_z)
-          (Obj.magic size0 (snd fams).series_z))
+        (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+          (Obj.magic size (snd fams).series_z))
         (check_boxes (slip_number z0)
           (check_local_leaf (both_halves z0)
             (local_part z0 low_a low_b a (fst fams) r.lower r.upper grain)
@@ -5917,16 +5571,16 @@ let check_anchored_box z0 w families0 r low high = function
 
 let both_bounded z0 w =
   (&&)
-    (bounded_rows (Obj.magic size0 (part_plain z0).free)
+    (bounded_rows (Obj.magic size (part_plain z0).free)
       (ff_block (part_plain z0) (row_a (part_plain z0))) w.stiffness_below)
     ((&&)
-      (bounded_rows (Obj.magic size0 (part_plain z0).free)
+      (bounded_rows (Obj.magic size (part_plain z0).free)
         (ff_block (part_plain z0) (row_b (part_plain z0))) w.mass_below)
       ((&&)
-        (bounded_rows (Obj.magic size0 (part_friction z0).free)
+        (bounded_rows (Obj.magic size (part_friction z0).free)
           (ff_block (part_friction z0) (row_a (part_friction z0)))
           w.stiffness_below)
-        (bounded_rows (Obj.magic size0 (part_friction z0).free)
+        (bounded_rows (Obj.magic size (part_friction z0).free)
           (ff_block (part_friction z0) (row_b (part_friction z0)))
           w.mass_below)))
 
@@ -5958,8 +5612,8 @@ let rest_row p p' r k v i c =
     map0 (fun j -> radius (corner_pencil p p' c) (corner_end r c) i j)
       (regular_order p r (Obj.magic k))
   in
-  Z.leb (row_slack (pred (size0 (regular_order p r (Obj.magic k)))) v p0 q)
-    (against_right (pred (size0 (regular_order p r (Obj.magic k)))) v p0)
+  Z.leb (row_slack (pred (size (regular_order p r (Obj.magic k)))) v p0 q)
+    (against_right (pred (size (regular_order p r (Obj.magic k)))) v p0)
 
 (** val positive_vector : regular -> bool **)
 
@@ -5988,7 +5642,7 @@ let presence_inside p p' r k v =
       (all (fun j ->
         Z.ltb (nth Big_int_Z.zero_big_int v.regular_widths j)
           (nth Big_int_Z.zero_big_int v.regular_right (Natural.succ j)))
-        (iota 0 (pred (size0 (regular_order p r (Obj.magic k))))))
+        (iota 0 (pred (size (regular_order p r (Obj.magic k))))))
       (all (fun i ->
         (||) (is_moving (state_of r i))
           (all (rest_row p p' r k v i) four_corners)) (indices p)))
@@ -6049,8 +5703,8 @@ let check_present z0 low_a low_b b fams grain r low high after before v =
     ((&&) ((&&) (proper r.lower after) (proper before r.upper))
       ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
         ((&&)
-          (eq_op nat_eqType (Obj.magic size0 (fst fams).series_z)
-            (Obj.magic size0 (snd fams).series_z))
+          (eq_op nat_eqType (Obj.magic size (fst fams).series_z)
+            (Obj.magic size (snd fams).series_z))
           (check_presence_piece (over r.lower r.upper) (over r.lower after)
             (over before r.upper) (local_region r) v))))
 
@@ -6085,8 +5739,8 @@ let rec check_pieces z0 w families0 low pieces bound1 =
     (match rest0 with
      | [] ->
        (&&) (check_piece z0 w families0 low p)
-         (Z.leb (Z.mul (fst bound1) (snd p.piece_end))
-           (Z.mul (fst p.piece_end) (snd bound1)))
+         (Z.leb (Big_int_Z.mult_big_int (fst bound1) (snd p.piece_end))
+           (Big_int_Z.mult_big_int (fst p.piece_end) (snd bound1)))
      | _ :: _ ->
        (&&) (check_piece z0 w families0 low p)
          (check_pieces z0 w families0 p.piece_end rest0 bound1))
@@ -6146,7 +5800,7 @@ let check_pinned z0 u alone r b =
     ((&&) (reaches r b.box_interval)
       ((&&) (alone r' b)
         ((&&)
-          (supports_region (enclosed_order (size0 (slip (zero_pencil z0 u))))
+          (supports_region (enclosed_order (size (slip (zero_pencil z0 u))))
             r' (known_box z0 u b))
           (check_zero_enclosed z0 u b.box_names b.box_claim))))
 
@@ -6168,7 +5822,7 @@ let not_pinned rs bs =
     (region -> pinned_box -> bool) -> bool **)
 
 let check_beside z0 u rs bs alone =
-  (&&) (eq_op nat_eqType (Obj.magic size0 rs) (Obj.magic size0 bs))
+  (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size bs))
     (all (fun rb ->
       match snd rb with
       | Some b -> check_pinned z0 u alone (fst rb) b
@@ -6181,10 +5835,10 @@ let check_beside z0 u rs bs alone =
 let zero_distinct z0 u lo hi yields0 rs ls =
   let families0 = families_of rs ls in
   if all (halves_apart z0) (map0 fst families0)
-  then (match distinct_yields (size0 (slip (zero_pencil z0 u))) lo hi
+  then (match distinct_yields (size (slip (zero_pencil z0 u))) lo hi
                 (filter (fun y ->
                   negb
-                    (has (belongs (size0 (slip (zero_pencil z0 u))) y)
+                    (has (belongs (size (slip (zero_pencil z0 u))) y)
                       families0)) (cat yields0 (isolated_of rs ls))) with
         | Some ys ->
           if all (halves_apart z0) (map0 (fun y -> y.yield_region) ys)
@@ -6283,7 +5937,8 @@ let check_at_value q e claims c ls =
 (** val zero_row0 : sparse_row -> bool **)
 
 let zero_row0 row =
-  all (fun c -> Z.eqb (lookup row (fst c)) Big_int_Z.zero_big_int) row
+  all (fun c ->
+    Big_int_Z.eq_big_int (lookup row (fst c)) Big_int_Z.zero_big_int) row
 
 (** val reverse_pencil : pencil -> pencil **)
 
@@ -6404,13 +6059,14 @@ let held b =
 (** val scaled_entry : Big_int_Z.big_int -> rational0 -> Big_int_Z.big_int **)
 
 let scaled_entry m q =
-  Z.div (Z.mul m (fst q)) (snd q)
+  Z.div (Big_int_Z.mult_big_int m (fst q)) (snd q)
 
 (** val exact : Big_int_Z.big_int -> rational0 -> bool **)
 
 let exact m q =
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd q))
-    (Z.eqb (Z.mul (snd q) (scaled_entry m q)) (Z.mul m (fst q)))
+    (Big_int_Z.eq_big_int (Big_int_Z.mult_big_int (snd q) (scaled_entry m q))
+      (Big_int_Z.mult_big_int m (fst q)))
 
 (** val scaled_row :
     Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list **)
@@ -6427,8 +6083,9 @@ let exact_rows m rows =
 
 let long_normal p =
   let component0 = fun n ->
-    ((Z.mul p.into_obstacle (Z.mul (fst p.factor_of) (fst n))),
-    (Z.mul (snd p.factor_of) (snd n)))
+    ((Big_int_Z.mult_big_int p.into_obstacle
+       (Big_int_Z.mult_big_int (fst p.factor_of) (fst n))),
+    (Big_int_Z.mult_big_int (snd p.factor_of) (snd n)))
   in
   ((component0 (fst p.frame_normal)), (component0 (snd p.frame_normal)))
 
@@ -6563,9 +6220,9 @@ let complementarity = function
         (in_mem (Obj.magic d)
           (mem (seq_predType nat_eqType) (Obj.magic held b))))
       (iota 0 b.degrees))
-    (addn (size0 (slipping b))
+    (addn (size (slipping b))
       (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-        (size0 (with_zero b))))
+        (size (with_zero b))))
 | _ -> []
 
 type solution_set = { solutions_in : yield list;
@@ -6636,7 +6293,8 @@ type equilibrium_evidence =
 let dominated_row y v w i row =
   let g = row_times y row in
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g i))
-    (Z.leb (Z.abs (sparse_dot row v)) (Z.mul (margin g i) w))
+    (Z.leb (Big_int_Z.abs_big_int (sparse_dot row v))
+      (Big_int_Z.mult_big_int (margin g i) w))
 
 (** val check_rows :
     int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool **)
@@ -6645,12 +6303,13 @@ let check_rows n eqs ineqs = function
 | ExactAt v ->
   (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v n))
     ((&&)
-      (all (fun row -> Z.eqb (sparse_dot row v) Big_int_Z.zero_big_int) eqs)
+      (all (fun row ->
+        Big_int_Z.eq_big_int (sparse_dot row v) Big_int_Z.zero_big_int) eqs)
       (all (fun row -> Z.ltb Big_int_Z.zero_big_int (sparse_dot row v)) ineqs))
 | BoxAround (v, y, w0) ->
-  let eps = map0 (fun row -> Z.mul (norm1 row) w0) y in
+  let eps = map0 (fun row -> Big_int_Z.mult_big_int (norm1 row) w0) y in
   (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v n))
-    ((&&) (leq (size0 y) n)
+    ((&&) (leq (size y) n)
       ((&&) (Z.leb Big_int_Z.zero_big_int w0)
         ((&&) (all_from (dominated_row y v w0) 0 eqs)
           (all (fun row -> Z.ltb (absolute_dot row eps) (sparse_dot row v))
@@ -6659,7 +6318,8 @@ let check_rows n eqs ineqs = function
 (** val times_rational : rational0 -> rational0 -> rational0 **)
 
 let times_rational a b =
-  ((Z.mul (fst a) (fst b)), (Z.mul (snd a) (snd b)))
+  ((Big_int_Z.mult_big_int (fst a) (fst b)),
+    (Big_int_Z.mult_big_int (snd a) (snd b)))
 
 (** val scaled_by : rational0 -> rational_row -> rational_row **)
 
@@ -6816,8 +6476,9 @@ let lawful c =
   (&&) (positive_rational (fst c).particle_of.factor_of)
     (match snd c with
      | SlipsWith sign0 ->
-       (||) (Z.eqb sign0 Big_int_Z.unit_big_int)
-         (Z.eqb sign0 (Big_int_Z.minus_big_int Big_int_Z.unit_big_int))
+       (||) (Big_int_Z.eq_big_int sign0 Big_int_Z.unit_big_int)
+         (Big_int_Z.eq_big_int sign0 (Big_int_Z.minus_big_int
+           Big_int_Z.unit_big_int))
      | _ -> true)
 
 (** val well_stated :
@@ -6826,10 +6487,10 @@ let lawful c =
 let well_stated b mu amounts states0 =
   (&&) (positive_rational mu)
     ((&&)
-      (eq_op nat_eqType (Obj.magic size0 amounts) (Obj.magic size0 b.loads))
+      (eq_op nat_eqType (Obj.magic size amounts) (Obj.magic size b.loads))
       ((&&)
-        (eq_op nat_eqType (Obj.magic size0 states0)
-          (Obj.magic size0 b.candidates))
+        (eq_op nat_eqType (Obj.magic size states0)
+          (Obj.magic size b.candidates))
         ((&&)
           (all (all (fun e -> leq (Natural.succ (fst e)) b.body_degrees))
             b.body_stiffness) (all lawful (zip b.candidates states0)))))
@@ -6852,18 +6513,19 @@ let check_equilibrium b mu amounts states0 m w =
 
 let signed_part p e i j =
   if eq_op nat_eqType (Obj.magic i) (Obj.magic j)
-  then Z.sub
-         (Z.mul (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
-           (center p e i i))
-         (sumZ (indices p) (fun k -> Z.add (radius p e i k) (radius p e k i)))
-  else Z.add (center p e i j) (center p e j i)
+  then Big_int_Z.sub_big_int
+         (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
+           Big_int_Z.unit_big_int) (center p e i i))
+         (sumZ (indices p) (fun k ->
+           Big_int_Z.add_big_int (radius p e i k) (radius p e k i)))
+  else Big_int_Z.add_big_int (center p e i j) (center p e j i)
 
 (** val signed_end : enclosed -> bool -> point -> factor -> bool **)
 
 let signed_end p strict e f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
     ((&&)
-      (eq_op nat_eqType (Obj.magic size0 f.factor_rows) (Obj.magic p.size_of))
+      (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic p.size_of))
       (covered (signed_part p e) (weighted_dot f.weights) strict
         (zip (indices p) f.factor_rows)))
 

@@ -28,115 +28,21 @@ type reflect =
 
 module Pos :
  sig
-  type mask =
-  | IsNul
-  | IsPos of Big_int_Z.big_int
-  | IsNeg
- end
-
-module Coq_Pos :
- sig
-  val succ : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val add : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val add_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  type mask = Pos.mask =
-  | IsNul
-  | IsPos of Big_int_Z.big_int
-  | IsNeg
-
-  val succ_double_mask : mask -> mask
-
-  val double_mask : mask -> mask
-
-  val double_pred_mask : Big_int_Z.big_int -> mask
-
-  val sub_mask : Big_int_Z.big_int -> Big_int_Z.big_int -> mask
-
-  val sub_mask_carry : Big_int_Z.big_int -> Big_int_Z.big_int -> mask
-
-  val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val iter : ('a1 -> 'a1) -> 'a1 -> Big_int_Z.big_int -> 'a1
-
-  val size : Big_int_Z.big_int -> Big_int_Z.big_int
-
   val compare_cont :
     comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
   val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
-
-  val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
-
-  val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
-
-  val sqrtrem_step :
-    (Big_int_Z.big_int -> Big_int_Z.big_int) -> (Big_int_Z.big_int ->
-    Big_int_Z.big_int) -> (Big_int_Z.big_int * mask) ->
-    Big_int_Z.big_int * mask
-
-  val sqrtrem : Big_int_Z.big_int -> Big_int_Z.big_int * mask
-
-  val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
  end
 
 module Z :
  sig
-  val double : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val succ_double : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pred_double : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pos_sub : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val add : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val opp : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val succ : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pred : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val sub : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val mul : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pow_pos : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pow : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
   val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
   val leb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
   val ltb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
-  val eqb : Big_int_Z.big_int -> Big_int_Z.big_int -> bool
-
-  val max : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val abs : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val pos_div_eucl :
-    Big_int_Z.big_int -> Big_int_Z.big_int ->
-    Big_int_Z.big_int * Big_int_Z.big_int
-
-  val div_eucl :
-    Big_int_Z.big_int -> Big_int_Z.big_int ->
-    Big_int_Z.big_int * Big_int_Z.big_int
-
   val div : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val log2 : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val sqrt : Big_int_Z.big_int -> Big_int_Z.big_int
-
-  val sqrt_up : Big_int_Z.big_int -> Big_int_Z.big_int
  end
 
 module Option :
@@ -214,7 +120,7 @@ val eq_op : Equality.coq_type -> Equality.sort rel
 
 val eqP : Equality.coq_type -> Equality.sort Equality.axiom
 
-val eqb0 : bool -> bool -> bool
+val eqb : bool -> bool -> bool
 
 val eqbP : bool Equality.axiom
 
@@ -254,7 +160,7 @@ val subn : int -> int -> int
 
 val leq : int -> int -> bool
 
-val iter0 : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
+val iter : int -> ('a1 -> 'a1) -> 'a1 -> 'a1
 
 val muln_rec : int -> int -> int
 
@@ -264,7 +170,7 @@ val nat_of_bool : bool -> int
 
 val odd : int -> bool
 
-val size0 : 'a1 list -> int
+val size : 'a1 list -> int
 
 val nilp : 'a1 list -> bool
 
@@ -1463,6 +1369,12 @@ val cross : matrix -> matrix -> matrix
 val cross_series : int -> matrix list -> matrix list -> matrix list
 
 val squares : Big_int_Z.big_int list -> Big_int_Z.big_int
+
+val root_bits : Big_int_Z.big_int
+
+val refined : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+val root_above : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
 val root_up : Big_int_Z.big_int -> Big_int_Z.big_int
 
