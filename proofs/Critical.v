@@ -129,7 +129,7 @@ Definition check_critical_leaf (parts : option (enclosed * enclosed)) (r : regio
   (if parts is Some (P0, P1) then check_parts P0 P1 r low high l else false)
   || check_whole_leaf r low high l.
 
-Definition check_critical (tr : box_tree critical_leaf) (from bound : point) :=
+Definition check_critical (tr : tree critical_leaf) (from bound : point) :=
   let parts := condensed_parts in
   [&& zero_wellformed z (Lambda2 0 1), parts_eliminated &
       check_boxes (slip_number z) (check_critical_leaf parts) tr (window zero infinity)
@@ -541,7 +541,7 @@ Theorem zero_critical_absent (R : rcfType) z w tr from bound : check_critical z 
 Proof.
 case/and3P=> wf eliminated boxes t mu v t0 bm sat.
 have [x0 start] := motion_start wf t0 sat.
-have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
+have [r [low [high [l [_ [[bt ag] bm' O Om ok]]]]]] := box_reaches_a_leaf boxes x0 start bm.
 exact: (critical_leaf_absent wf (between_ge0 Om bm') sat O Om bt bm' ag eliminated ok).
 Qed.
 

@@ -45,7 +45,7 @@ Record box_anchoring := BoxAnchoring {
   box_anchors : seq box_anchor }.
 
 Inductive anchored_box_leaf :=
-  | AboutAnchor of nat & Z & box_tree critical_leaf
+  | AboutAnchor of nat & Z & tree critical_leaf
   | WithoutAnchor of critical_leaf.
 
 Section Checker.
@@ -80,7 +80,7 @@ Definition local_part low_a low_b a fam lo hi grain :=
   local_pencil ns a low_a low_b fam lo hi false grain.
 
 Definition check_about low_a low_b (b : box_anchor) (fams : anchor_family * anchor_family) grain
-    (r : region) (low high : point) (tr : box_tree critical_leaf) :=
+    (r : region) (low high : point) (tr : tree critical_leaf) :=
   let a := plain_anchor b in
   let a' := friction_anchor a (friction_left b) in
   [&& proper_interval a low_a low_b (lower r) (upper r), (0 <? grain)%Z,
@@ -116,7 +116,7 @@ Definition both_bounded :=
       bounded_rows (size (free Q1)) (ff_block Q1 (row_a Q1)) (stiffness_below w) &
       bounded_rows (size (free Q1)) (ff_block Q1 (row_b Q1)) (mass_below w)].
 
-Definition check_anchored_critical (tr : box_tree anchored_box_leaf) (from bound : point) :=
+Definition check_anchored_critical (tr : tree anchored_box_leaf) (from bound : point) :=
   let families := box_expansions in
   [&& zero_wellformed z (Lambda2 0 1), nilp (box_anchors w) || both_bounded &
       check_boxes ns (check_anchored_box families) tr (window zero infinity) from bound].
@@ -227,7 +227,7 @@ have x0 i : (i < size (slip Q))%N -> 0 <= slip_of Q x i.
   by move=> lt_i; have [] := signs (mem_nth 0%N lt_i).
 have start : in_region (size (slip Q)) (u_of lo hi t) (slip_of Q x) (local_region r).
   by split=> //; rewrite /between /= toR0 toR1 !mulr1.
-move=> /box_reaches_a_leaf/(_ x0 start bm)[r1 [low1 [high1 [l [[bu ag1] bm1 O1 Om1 leaf_ok]]]]].
+move=> /box_reaches_a_leaf/(_ x0 start bm)[r1 [low1 [high1 [l [_ [[bu ag1] bm1 O1 Om1 leaf_ok]]]]]].
 have {leaf_ok} ok : check_parts P P' r1 low1 high1 l.
   by case: l leaf_ok => //= both; have := halves_absent both ag1.
 have [A [B [E imageE]]] :=
@@ -342,7 +342,7 @@ Theorem zero_anchored_critical_absent (R : rcfType) z w tr from bound :
   forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9z z t mu v -> False.
 Proof.
 case/and3P=> wf bounds boxes t mu v t0 bm sat; have [x0 start] := motion_start wf t0 sat.
-have [r [low [high [l [[bt ag] bm' O Om ok]]]]] := box_reaches_a_leaf boxes x0 start bm.
+have [r [low [high [l [_ [[bt ag] bm' O Om ok]]]]]] := box_reaches_a_leaf boxes x0 start bm.
 exact: (anchored_box_absent wf bounds (between_ge0 Om bm') sat O Om bt bm' ag ok).
 Qed.
 

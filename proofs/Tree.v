@@ -4,17 +4,20 @@
    A region is an interval [lower, upper] of values t together with a state for each
    complementarity variable: open (nothing known), resting (x_i = 0) or moving (x_i > 0).
 
-   A tree divides a region.  "split t" cuts the interval at t; "branch i" decides whether
-   variable i rests or moves; a leaf is a piece of evidence about its region.
+   A *box* is a region together with an interval [low, high] of a second parameter mu (Boxes.v).  A
+   tree divides a box: "Split t" cuts the interval of t, "CutFriction m" that of mu; "Branch i"
+   decides whether variable i rests or moves; a leaf is a piece of evidence about its box.  A tree
+   of regions is one whose evidence does not look at mu.
 
-   Theorem [every_point_reaches_a_leaf]: if the tree is checked, then each pair (t, x) with
-   x >= 0 in the region of the root lies in the region of a leaf, and the evidence of that leaf has
-   been checked for that region.
+   Theorem [box_reaches_a_leaf]: if the tree is checked, then each (t, mu, x) with x >= 0 in the box
+   of the root lies in the box of a leaf, and the evidence of that leaf has been checked for that
+   box.  [every_point_reaches_a_leaf]: the same of regions.
 
    The theorem does not ask that (t, x) solves anything; what a leaf proves is the matter of
    Cover.v.  The proof is an induction over the tree.
 
-   Page: spec/certificates.md, 5.6 (trees).  Rust: crates/check/src/cover/walk.rs, region.rs. *)
+   Pages: spec/certificates.md, 5.6 (trees), 5.18.
+   Rust: crates/check/src/cover/walk.rs, region.rs, critical.rs. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
@@ -65,38 +68,55 @@ Variable leaf : Type.
 
 Inductive tree :=
   | Split of point & tree & tree
+  | CutFriction of point & tree & tree
   | Branch of nat & tree & tree
   | Leaf of leaf.
 
-(* n is the number of complementarity variables; [evidence] checks a leaf. *)
-Variables (n : nat) (evidence : region -> leaf -> bool).
+(* n is the number of complementarity variables. *)
+Variable n : nat.
 
-Fixpoint check_tree (tr : tree) (r : region) : bool :=
+Section Boxes.
+
+(* The check of a leaf. *)
+Variable evidence : region -> point -> point -> leaf -> bool.
+
+Fixpoint check_boxes (tr : tree) (r : region) (low high : point) : bool :=
   match tr with
   | Split t tr1 tr2 =>
       [&& ordered (lower r) t, ordered t (upper r),
-          check_tree tr1 (below t r) & check_tree tr2 (above t r)]
+          check_boxes tr1 (below t r) low high & check_boxes tr2 (above t r) low high]
+  | CutFriction m tr1 tr2 =>
+      [&& ordered low m, ordered m high, check_boxes tr1 r low m & check_boxes tr2 r m high]
   | Branch i tr1 tr2 =>
-      [&& (i < n)%N, check_tree tr1 (decide i Resting r) & check_tree tr2 (decide i Moving r)]
-  | Leaf l => ordered (lower r) (upper r) && evidence r l
+      [&& (i < n)%N, check_boxes tr1 (decide i Resting r) low high &
+          check_boxes tr2 (decide i Moving r) low high]
+  | Leaf l => [&& ordered (lower r) (upper r), ordered low high & evidence r low high l]
   end.
+
+End Boxes.
+
+Definition check_tree (evidence : region -> leaf -> bool) tr r :=
+  check_boxes (fun r' _ _ => evidence r') tr r zero zero.
 
 Fixpoint leaves (tr : tree) (r : region) : seq (region * leaf) :=
   match tr with
   | Split t tr1 tr2 => leaves tr1 (below t r) ++ leaves tr2 (above t r)
+  | CutFriction _ tr1 tr2 => leaves tr1 r ++ leaves tr2 r
   | Branch i tr1 tr2 =>
       leaves tr1 (decide i Resting r) ++ leaves tr2 (decide i Moving r)
   | Leaf l => [:: (r, l)]
   end.
 
-Lemma leaves_are_checked tr r : check_tree tr r ->
+Lemma leaves_are_checked evidence tr r : check_tree evidence tr r ->
   forall rl, List.In rl (leaves tr r) ->
   ordered (lower rl.1) (upper rl.1) /\ evidence rl.1 rl.2.
 Proof.
-elim: tr r => [t tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l] r /=.
-- by case/and4P=> _ _ c1 c2 rl /in_cat_or[]; [exact: IH1 c1 rl | exact: IH2 c2 rl].
-- by case/and3P=> _ c1 c2 rl /in_cat_or[]; [exact: IH1 c1 rl | exact: IH2 c2 rl].
-- by move=> /andP[? ?] rl [<-|].
+rewrite /check_tree; move: zero {2}zero.
+elim: tr r => [t tr1 IH1 tr2 IH2|m tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l] r low high /=.
+- by case/and4P=> _ _ c1 c2 rl /in_cat_or[]; [apply: IH1 c1 rl | apply: IH2 c2 rl].
+- by case/and4P=> _ _ c1 c2 rl /in_cat_or[]; [apply: IH1 c1 rl | apply: IH2 c2 rl].
+- by case/and3P=> _ c1 c2 rl /in_cat_or[]; [apply: IH1 c1 rl | apply: IH2 c2 rl].
+- by move=> /and3P[? _ ?] rl [<-|].
 Qed.
 
 Section Sound.
@@ -121,30 +141,50 @@ move=> lt_i ag xi j lt_j; rewrite /state_of /decide /= nth_set_nth /=.
 by case: eqP => [->|_] //; apply: ag.
 Qed.
 
-Theorem every_point_reaches_a_leaf tr r t x :
-  check_tree tr r -> (forall i, (i < n)%N -> 0 <= x i) -> in_region t x r ->
+Theorem box_reaches_a_leaf evidence tr r low high t (mu : R) x :
+  check_boxes evidence tr r low high -> (forall i, (i < n)%N -> 0 <= x i) ->
+  in_region t x r -> between mu low high ->
+  exists r' low' high' l, List.In (r', l) (leaves tr r) /\
+    [/\ in_region t x r', between mu low' high', ordered (lower r') (upper r'),
+        ordered low' high' & evidence r' low' high' l].
+Proof.
+move=> + x0; pose reached rs := exists r' low' high' l, List.In (r', l) rs /\
+  [/\ in_region t x r', between mu low' high', ordered (lower r') (upper r'),
+      ordered low' high' & evidence r' low' high' l].
+have either a b : reached a \/ reached b -> reached (a ++ b).
+  by case=> -[r' [low' [high' [l [l_in ok]]]]]; exists r', low', high', l; split=> //;
+    apply/in_cat_or; [left | right].
+rewrite -/(reached _).
+elim: tr r low high => [c tr1 IH1 tr2 IH2|c tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l] r low high /=.
+
+(* A cut: t or mu lies on one side of it. *)
+- case/and4P=> _ _ c1 c2 [[lo_t t_hi] ag] m_in; apply: either.
+  case: (lerP (t * toR c.2) (toR c.1)) => t_c; [left; apply: IH1 c1 _ m_in | right].
+    by split.
+  by apply: IH2 c2 _ m_in; split=> //; split=> //; apply: ltW.
+- case/and4P=> _ _ c1 c2 reg [lo_m m_hi]; apply: either.
+  case: (lerP (mu * toR c.2) (toR c.1)) => m_c; [left | right].
+    by apply: IH1 c1 reg _; split.
+  by apply: IH2 c2 reg _; split=> //; apply: ltW.
+
+(* Branch: x_i is zero or positive. *)
+- case/and3P=> lt_i c1 c2 [bt ag] m_in; apply: either; have [xi|xi] := eqVneq (x i) 0; [left | right].
+    by apply: IH1 c1 _ m_in; split=> //; apply: agrees_decide.
+  apply: IH2 c2 _ m_in; split=> //; apply: agrees_decide => //.
+  by rewrite lt_neqAle eq_sym xi x0.
+
+(* Leaf. *)
+by case/and3P=> o o' e reg m_in; exists r, low, high, l; split; [left | split].
+Qed.
+
+Theorem every_point_reaches_a_leaf evidence tr r t x :
+  check_tree evidence tr r -> (forall i, (i < n)%N -> 0 <= x i) -> in_region t x r ->
   exists2 rl, List.In rl (leaves tr r) &
     [/\ in_region t x rl.1, ordered (lower rl.1) (upper rl.1) & evidence rl.1 rl.2].
 Proof.
-move=> + x0; elim: tr r => [c tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l] r /=.
-
-(* Split: t lies on one side of the cut. *)
-- case/and4P=> _ _ c1 c2 [[lo_t t_hi] ag]; case: (lerP (t * toR c.2) (toR c.1)) => t_c.
-    have [|rl rl_in rl_ok] := IH1 _ c1; first by [].
-    by exists rl => //; apply/in_cat_or; left.
-  have [|rl rl_in rl_ok] := IH2 _ c2; first by split=> //; split=> //; apply: ltW.
-  by exists rl => //; apply/in_cat_or; right.
-
-(* Branch: x_i is zero or positive. *)
-- case/and3P=> lt_i c1 c2 [bt ag]; have [xi|xi] := eqVneq (x i) 0.
-    have [|rl rl_in rl_ok] := IH1 _ c1; first by split=> //; apply: agrees_decide.
-    by exists rl => //; apply/in_cat_or; left.
-  have [|rl rl_in rl_ok] := IH2 _ c2.
-    by split=> //; apply: agrees_decide => //; rewrite lt_neqAle eq_sym xi x0.
-  by exists rl => //; apply/in_cat_or; right.
-
-(* Leaf. *)
-- by case/andP=> o e tx; exists (r, l) => //; left.
+move=> ok x0 reg; have zero_in : between 0 zero zero by rewrite /between /= toR0 mul0r.
+have [r' [_ [_ [l [l_in [reg' _ O _ ok']]]]]] := box_reaches_a_leaf ok x0 reg zero_in.
+by exists (r', l).
 Qed.
 
 End Sound.

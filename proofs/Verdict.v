@@ -44,8 +44,8 @@ Inductive cover_evidence :=
   | CoverAtValue of seq solution_claim & cover & seq (option support_leaf).
 
 Inductive absence_evidence :=
-  | ByElimination of option (elimination * (matrix * matrix)) & box_tree critical_leaf
-  | ByAnchors of box_anchoring & box_tree anchored_box_leaf.
+  | ByElimination of option (elimination * (matrix * matrix)) & tree critical_leaf
+  | ByAnchors of box_anchoring & tree anchored_box_leaf.
 
 Inductive evidence :=
   | ClaimsIn of point & point & seq claim_evidence

@@ -67,6 +67,7 @@ let leaf = function
 
 let rec tree = function
   | Split (t, low, high) -> term ["Split"; point t; tree low; tree high]
+  | CutFriction _ -> invalid_arg "a cut of friction"
   | Branch (i, resting, moving) -> term ["Branch"; number i; tree resting; tree moving]
   | Leaf l -> term ["Leaf"; leaf l]
 

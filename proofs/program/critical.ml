@@ -312,7 +312,7 @@ let about c v n box make =
     let region = { local_unit with states = box.region.states } in
     match make (plain, friction) region with
     | Some e when Kernel.check_parts plain friction region box.low box.high e ->
-      Some (Kernel.AboutAnchor (n, grain, Kernel.BoxLeaf e))
+      Some (Kernel.AboutAnchor (n, grain, Kernel.Leaf e))
     | _ -> None
 
 let as_whole = function
@@ -328,7 +328,7 @@ let cut_box box = function
     let region = box.region in
     { box with region = { region with upper = cut } },
     { box with region = { region with lower = cut } },
-    fun first second -> Kernel.CutValue (cut, first, second)
+    fun first second -> Kernel.Split (cut, first, second)
   | Along_friction ->
     let cut = point_of (half (value_of box.low) (value_of box.high)) in
     { box with high = cut }, { box with low = cut },
@@ -338,7 +338,7 @@ let cut_box box = function
    those halves in the others. *)
 let rec close what directions ways box =
   match List.find_map (fun way -> way box) ways, directions with
-  | Some l, _ -> Kernel.BoxLeaf l
+  | Some l, _ -> Kernel.Leaf l
   | None, [] -> no_witness "%s" what
   | None, direction :: rest ->
     let first, second, both = cut_box box direction in
@@ -367,10 +367,10 @@ let anchored_leaf c v piece box node =
     let by_anchor box =
       about c v (number ()) box (fun parts region -> definite_box parts negative region box) in
     (match by_anchor box with
-     | Some l -> Kernel.BoxLeaf l
+     | Some l -> Kernel.Leaf l
      | None ->
        match whole negative box with
-       | Some l -> Kernel.BoxLeaf l
+       | Some l -> Kernel.Leaf l
        | None -> close "definite" six_times [by_anchor] box)
   | BoxRegular pivot ->
     let k = position c.slip pivot in
@@ -385,10 +385,10 @@ let leaf_of_parts c parts _ box node =
   spend_box (Array.length c.slip) box;
   let found what ways =
     match List.find_map (fun way -> way box) ways with
-    | Some l -> Kernel.BoxLeaf l
+    | Some l -> Kernel.Leaf l
     | None -> no_witness "%s" what in
   match node with
-  | BoxFarkas w when parts <> None -> Kernel.BoxLeaf (Kernel.BoxFarkas w)
+  | BoxFarkas w when parts <> None -> Kernel.Leaf (Kernel.BoxFarkas w)
   | BoxDefinite negative ->
     let by_parts box =
       Option.bind parts (fun parts -> definite_box parts negative box.region box) in
@@ -406,22 +406,22 @@ let leaf_of_parts c parts _ box node =
    region in which both halves move needs none. *)
 let rec join tree =
   let both inside around first second = match join first, join second with
-    | Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, t)),
-      Kernel.BoxLeaf (Kernel.AboutAnchor (n', grain', t')) when n = n' && Z.equal grain grain' ->
-      Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, inside t t'))
-    | Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, t)),
-      Kernel.BoxLeaf (Kernel.WithoutAnchor Kernel.BoxHalves) ->
-      Kernel.BoxLeaf (Kernel.AboutAnchor (n, grain, inside t (Kernel.BoxLeaf Kernel.BoxHalves)))
+    | Kernel.Leaf (Kernel.AboutAnchor (n, grain, t)),
+      Kernel.Leaf (Kernel.AboutAnchor (n', grain', t')) when n = n' && Z.equal grain grain' ->
+      Kernel.Leaf (Kernel.AboutAnchor (n, grain, inside t t'))
+    | Kernel.Leaf (Kernel.AboutAnchor (n, grain, t)),
+      Kernel.Leaf (Kernel.WithoutAnchor Kernel.BoxHalves) ->
+      Kernel.Leaf (Kernel.AboutAnchor (n, grain, inside t (Kernel.Leaf Kernel.BoxHalves)))
     | first, second -> around first second in
   match tree with
   | Kernel.CutFriction (m, first, second) ->
     let cut t t' = Kernel.CutFriction (m, t, t') in
     both cut (fun t t' -> Kernel.CutFriction (m, t, t')) first second
-  | Decide (i, first, second) ->
-    let decide t t' = Kernel.Decide (i, t, t') in
-    both decide (fun t t' -> Kernel.Decide (i, t, t')) first second
-  | CutValue (t, first, second) -> Kernel.CutValue (t, join first, join second)
-  | BoxLeaf _ -> tree
+  | Branch (i, first, second) ->
+    let decide t t' = Kernel.Branch (i, t, t') in
+    both decide (fun t t' -> Kernel.Branch (i, t, t')) first second
+  | Split (t, first, second) -> Kernel.Split (t, join first, join second)
+  | Leaf _ -> tree
 
 (* The other half of v_T at the particle of the k-th complementarity variable, if that is a half and
    the other one is not at rest in the region. *)
@@ -447,7 +447,7 @@ let build_piece c leaf halves nodes box =
       let first, second, rest =
         both { box with region = { region with upper = t } }
           { box with region = { region with lower = t } } rest in
-      Kernel.CutValue (t, first, second), rest
+      Kernel.Split (t, first, second), rest
     | CutFriction m :: rest ->
       let m = point_of m in
       let first, second, rest = both { box with high = m } { box with low = m } rest in
@@ -461,11 +461,11 @@ let build_piece c leaf halves nodes box =
        | None ->
          let first, second, rest =
            both (decided [i, Kernel.Resting]) (decided [i, Kernel.Moving]) rest in
-         Kernel.Decide (i, first, second), rest
+         Kernel.Branch (i, first, second), rest
        | Some other ->
          let first, second, rest = both (decided [i, Kernel.Resting])
              (decided [i, Kernel.Moving; other, Kernel.Resting]) rest in
-         Kernel.Decide (i, first, Kernel.Decide (other, second, Kernel.BoxLeaf halves)), rest)
+         Kernel.Branch (i, first, Kernel.Branch (other, second, Kernel.Leaf halves)), rest)
     | node :: rest -> leaf box node, rest in
   match build 0 box nodes with
   | tree, [] -> tree
@@ -482,5 +482,5 @@ let build c leaf halves pieces =
       let region = { Kernel.lower; upper; states = [] } in
       let box = { region; low = c.mu_low; high = c.mu_high } in
       let tree = build_piece c (leaf piece) halves piece.box_tree box in
-      if rest = [] then tree else Kernel.CutValue (upper, tree, join upper rest) in
+      if rest = [] then tree else Kernel.Split (upper, tree, join upper rest) in
   join Kernel.zero pieces

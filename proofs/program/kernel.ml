@@ -696,24 +696,39 @@ let ordered lo hi =
 
 type 'leaf tree =
 | Split of point * 'leaf tree * 'leaf tree
+| CutFriction of point * 'leaf tree * 'leaf tree
 | Branch of int * 'leaf tree * 'leaf tree
 | Leaf of 'leaf
 
-(** val check_tree :
-    int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool **)
+(** val check_boxes :
+    int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 tree -> region ->
+    point -> point -> bool **)
 
-let rec check_tree n evidence0 tr r =
+let rec check_boxes n evidence0 tr r low high =
   match tr with
   | Split (t, tr1, tr2) ->
     (&&) (ordered r.lower t)
       ((&&) (ordered t r.upper)
-        ((&&) (check_tree n evidence0 tr1 (below t r))
-          (check_tree n evidence0 tr2 (above t r))))
+        ((&&) (check_boxes n evidence0 tr1 (below t r) low high)
+          (check_boxes n evidence0 tr2 (above t r) low high)))
+  | CutFriction (m, tr1, tr2) ->
+    (&&) (ordered low m)
+      ((&&) (ordered m high)
+        ((&&) (check_boxes n evidence0 tr1 r low m)
+          (check_boxes n evidence0 tr2 r m high)))
   | Branch (i, tr1, tr2) ->
     (&&) (leq (Natural.succ i) n)
-      ((&&) (check_tree n evidence0 tr1 (decide i Resting r))
-        (check_tree n evidence0 tr2 (decide i Moving r)))
-  | Leaf l -> (&&) (ordered r.lower r.upper) (evidence0 r l)
+      ((&&) (check_boxes n evidence0 tr1 (decide i Resting r) low high)
+        (check_boxes n evidence0 tr2 (decide i Moving r) low high))
+  | Leaf l ->
+    (&&) (ordered r.lower r.upper)
+      ((&&) (ordered low high) (evidence0 r low high l))
+
+(** val check_tree :
+    int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool **)
+
+let check_tree n evidence0 tr r =
+  check_boxes n (fun r' _ _ -> evidence0 r') tr r zero zero
 
 (** val leaves : 'a1 tree -> region -> (region * 'a1) list **)
 
@@ -721,6 +736,7 @@ let rec leaves tr r =
   match tr with
   | Split (t, tr1, tr2) ->
     cat (leaves tr1 (below t r)) (leaves tr2 (above t r))
+  | CutFriction (_, tr1, tr2) -> cat (leaves tr1 r) (leaves tr2 r)
   | Branch (i, tr1, tr2) ->
     cat (leaves tr1 (decide i Resting r)) (leaves tr2 (decide i Moving r))
   | Leaf l -> (r, l) :: []
@@ -4993,36 +5009,6 @@ let check_families q claims c lo hi ls =
   (&&) (check_cover_of q claims c lo hi)
     (check_supports q (regions_open c lo hi) ls)
 
-type 'leaf box_tree =
-| CutValue of point * 'leaf box_tree * 'leaf box_tree
-| CutFriction of point * 'leaf box_tree * 'leaf box_tree
-| Decide of int * 'leaf box_tree * 'leaf box_tree
-| BoxLeaf of 'leaf
-
-(** val check_boxes :
-    int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 box_tree ->
-    region -> point -> point -> bool **)
-
-let rec check_boxes n evidence0 tr r low high =
-  match tr with
-  | CutValue (t, tr1, tr2) ->
-    (&&) (ordered r.lower t)
-      ((&&) (ordered t r.upper)
-        ((&&) (check_boxes n evidence0 tr1 (below t r) low high)
-          (check_boxes n evidence0 tr2 (above t r) low high)))
-  | CutFriction (m, tr1, tr2) ->
-    (&&) (ordered low m)
-      ((&&) (ordered m high)
-        ((&&) (check_boxes n evidence0 tr1 r low m)
-          (check_boxes n evidence0 tr2 r m high)))
-  | Decide (i, tr1, tr2) ->
-    (&&) (leq (Natural.succ i) n)
-      ((&&) (check_boxes n evidence0 tr1 (decide i Resting r) low high)
-        (check_boxes n evidence0 tr2 (decide i Moving r) low high))
-  | BoxLeaf l ->
-    (&&) (ordered r.lower r.upper)
-      ((&&) (ordered low high) (evidence0 r low high l))
-
 (** val mixed_matrix : point -> matrix -> matrix -> matrix **)
 
 let mixed_matrix e m m' =
@@ -5456,7 +5442,7 @@ let check_critical_leaf z0 parts r low high l =
 
 (** val check_critical :
     zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf
-    box_tree -> point -> point -> bool **)
+    tree -> point -> point -> bool **)
 
 let check_critical z0 w tr from bound1 =
   let parts = condensed_parts z0 w in
@@ -5474,7 +5460,7 @@ type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
                        box_anchors : box_anchor list }
 
 type anchored_box_leaf =
-| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
+| AboutAnchor of int * Big_int_Z.big_int * critical_leaf tree
 | WithoutAnchor of critical_leaf
 
 (** val friction_anchor : anchor -> matrix list -> anchor **)
@@ -5519,7 +5505,7 @@ let local_part z0 low_a low_b a fam lo hi grain =
 (** val check_about :
     zero_system -> form_bound -> form_bound -> box_anchor ->
     (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
-    -> point -> critical_leaf box_tree -> bool **)
+    -> point -> critical_leaf tree -> bool **)
 
 let check_about z0 low_a low_b b fams grain r low high tr =
   let a = b.plain_anchor in
@@ -5585,8 +5571,8 @@ let both_bounded z0 w =
           w.mass_below)))
 
 (** val check_anchored_critical :
-    zero_system -> box_anchoring -> anchored_box_leaf box_tree -> point ->
-    point -> bool **)
+    zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point
+    -> bool **)
 
 let check_anchored_critical z0 w tr from bound1 =
   let families0 = box_expansions z0 w in
@@ -6569,8 +6555,8 @@ type cover_evidence =
 
 type absence_evidence =
 | ByElimination of (elimination * (matrix * matrix)) option
-   * critical_leaf box_tree
-| ByAnchors of box_anchoring * anchored_box_leaf box_tree
+   * critical_leaf tree
+| ByAnchors of box_anchoring * anchored_box_leaf tree
 
 type evidence =
 | ClaimsIn of point * point * claim_evidence list

@@ -275,8 +275,13 @@ val ordered : point -> point -> bool
 
 type 'leaf tree =
 | Split of point * 'leaf tree * 'leaf tree
+| CutFriction of point * 'leaf tree * 'leaf tree
 | Branch of int * 'leaf tree * 'leaf tree
 | Leaf of 'leaf
+
+val check_boxes :
+  int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 tree -> region ->
+  point -> point -> bool
 
 val check_tree : int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool
 
@@ -1619,16 +1624,6 @@ val check_families :
   pencil -> solution_claim list -> cover -> point -> point -> support_leaf
   option list -> bool
 
-type 'leaf box_tree =
-| CutValue of point * 'leaf box_tree * 'leaf box_tree
-| CutFriction of point * 'leaf box_tree * 'leaf box_tree
-| Decide of int * 'leaf box_tree * 'leaf box_tree
-| BoxLeaf of 'leaf
-
-val check_boxes :
-  int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 box_tree -> region
-  -> point -> point -> bool
-
 val mixed_matrix : point -> matrix -> matrix -> matrix
 
 val mixed : point -> enclosed -> enclosed -> enclosed
@@ -1767,7 +1762,7 @@ val check_critical_leaf :
 
 val check_critical :
   zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf
-  box_tree -> point -> point -> bool
+  tree -> point -> point -> bool
 
 type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
                     friction_left : matrix list }
@@ -1776,7 +1771,7 @@ type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
                        box_anchors : box_anchor list }
 
 type anchored_box_leaf =
-| AboutAnchor of int * Big_int_Z.big_int * critical_leaf box_tree
+| AboutAnchor of int * Big_int_Z.big_int * critical_leaf tree
 | WithoutAnchor of critical_leaf
 
 val friction_anchor : anchor -> matrix list -> anchor
@@ -1797,7 +1792,7 @@ val local_part :
 val check_about :
   zero_system -> form_bound -> form_bound -> box_anchor ->
   (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
-  point -> critical_leaf box_tree -> bool
+  point -> critical_leaf tree -> bool
 
 val no_box_anchor : box_anchor
 
@@ -1811,8 +1806,8 @@ val check_anchored_box :
 val both_bounded : zero_system -> box_anchoring -> bool
 
 val check_anchored_critical :
-  zero_system -> box_anchoring -> anchored_box_leaf box_tree -> point ->
-  point -> bool
+  zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point ->
+  bool
 
 type presence = { presence_box : regular; presence_start : regular;
                   presence_finish : regular }
@@ -2167,8 +2162,8 @@ type cover_evidence =
 
 type absence_evidence =
 | ByElimination of (elimination * (matrix * matrix)) option
-   * critical_leaf box_tree
-| ByAnchors of box_anchoring * anchored_box_leaf box_tree
+   * critical_leaf tree
+| ByAnchors of box_anchoring * anchored_box_leaf tree
 
 type evidence =
 | ClaimsIn of point * point * claim_evidence list
