@@ -520,20 +520,17 @@ by rewrite mulrCA mulrC ler_pmul2r.
 Qed.
 
 Lemma between_local u (e e' : point) :
-  between u (local_point lo hi e) (local_point lo hi e') -> between (t_of u) e e'.
+  between u (local_point lo hi e) (local_point lo hi e') <-> between (t_of u) e e'.
 Proof.
 have [_ l2 h2 w0 _] := proper_parts.
 have m0 : 0 < toR (lo.2 * hi.2)%Z :> R by rewrite toRM mulr_gt0.
 have tE : t_of u * toR (lo.2 * hi.2)%Z = toR (lo.1 * hi.2)%Z + u * toR width.
   by rewrite /t_of divfK // gt_eqF.
-have localE (x : point) : t_of u * toR x.2 * toR (lo.2 * hi.2)%Z - toR x.1 * toR (lo.2 * hi.2)%Z =
+have localE (x : point) : (t_of u * toR x.2 - toR x.1) * toR (lo.2 * hi.2)%Z =
     u * toR (local_point lo hi x).2 - toR (local_point lo hi x).1.
-  have -> : t_of u * toR x.2 * toR (lo.2 * hi.2)%Z = toR x.2 * (t_of u * toR (lo.2 * hi.2)%Z).
-    by rewrite mulrAC mulrC.
-  by rewrite tE /local_point /= !toRM !toRB !toRM; ring.
-case=> le1 le2; split.
-  rewrite -(ler_pmul2r m0) -subr_ge0 localE subr_ge0; exact: le1.
-rewrite -(ler_pmul2r m0) -subr_le0 localE subr_le0; exact: le2.
+  by rewrite mulrBl mulrAC tE /local_point /= !toRM !toRB !toRM; ring.
+by rewrite /between -![_ <= t_of u * _]subr_ge0 -![t_of u * _ <= _]subr_le0
+  -(pmulr_lge0 _ m0) -[in X in _ <-> X](pmulr_lle0 _ m0) !localE subr_ge0 subr_le0.
 Qed.
 
 Lemma between_t u : 0 <= u -> u <= 1 -> between (t_of u) lo hi.
@@ -550,6 +547,31 @@ Qed.
 (* Solutions of the pencil and of the family. *)
 Definition free_values u xs :=
   Elimination.free_part nf (F_at Q a (d_of u)) ns (G_at Q a (d_of u)) xs.
+
+(* The free rows vanish where the free variables have these values. *)
+Lemma free_values_rows u x : 0 <= u ->
+  (forall i, i \in free Q -> reaction Q (t_of u) x i = 0) <->
+  (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k).
+Proof.
+move=> u0; apply: iff_trans (free_rows_vanish s_low_gt0 (below_at_u u0) _ _ _ _).
+split=> [rows k /in_free lt_k|rows i /(nthP 0%N)[k lt_k <-]].
+  by rewrite -(reaction_free_at wf x (t_ofE u)) // rows ?mulr0 // mem_nth.
+apply: (mulfI (lt0r_neq0 q_gt0)); rewrite mulr0 (reaction_free_at wf x (t_ofE u)) //.
+by apply: rows; rewrite mem_iota.
+Qed.
+
+(* Values of the complementarity variables, and those of the free ones. *)
+Definition joined u xs := join Q (free_values u xs) xs.
+
+Lemma slip_of_joined u xs j : (j < ns)%N -> slip_of Q (joined u xs) j = xs j.
+Proof. exact: slip_of_join. Qed.
+
+Lemma joined_values u xs k : k \in fi ->
+  free_of Q (joined u xs) k = free_values u (slip_of Q (joined u xs)) k.
+Proof.
+move=> /in_free Hk; rewrite free_of_join // /free_values /Elimination.free_part; congr (- _).
+by apply: sum_eq => j; rewrite mem_iota => Hj; rewrite slip_of_joined.
+Qed.
 
 Definition row_factor_at i : R := scale_at i * (4%:R * toR power_z * u2) * toR q.
 
@@ -576,17 +598,8 @@ Lemma to_family slopes u x : 0 <= u -> solution Q (t_of u) x ->
 Proof.
 move=> u0 [_ [i0 Hi0 xi0] rows_f rows_s].
 have part k : k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
-  apply/(free_rows_vanish s_low_gt0 (below_at_u u0)) : k => k Hk; have lt_k := in_free Hk.
-  by rewrite -(reaction_free_at wf x (t_ofE u)) // rows_f ?mulr0 // mem_nth.
-split=> //; split=> //.
-  have [/hasP[i Hi xi]|/hasPn all0] := boolP (has (fun i => slip_of Q x i != 0) si).
-    by exists i.
-  case/orP: (free_or_slip Hi0) => /(nthP 0%N)[k lt_k eq_k]; move: xi0; rewrite -eq_k.
-    have Hk : k \in fi by rewrite mem_iota.
-    rewrite -[x _]/(free_of Q x k) part // /free_values /Elimination.free_part.
-    rewrite sum_zero ?oppr0 ?eqxx // => j Hj.
-    by have /negPn/eqP-> := all0 _ Hj; rewrite mulr0.
-  by move=> xk; exists k; rewrite // mem_iota.
+  by move: k; apply/(free_values_rows x u0).
+split=> //; split=> //; first by apply: (slip_part_nonzero part); exists i0.
 move=> i /in_local Hi; have [x0 y0 xy] := rows_s _ (mem_nth 0%N Hi).
 rewrite (local_image _ u0 Hi part) pmulr_rge0 ?row_factor_gt0_ //; split=> //.
 by rewrite mulrCA [x _ * _]xy mulr0.
@@ -594,23 +607,16 @@ Qed.
 
 Lemma from_family slopes u xs : 0 <= u ->
   family_solves (pencil_for slopes grain) local_family u xs ->
-  solution Q (t_of u) (join Q (free_values u xs) xs).
+  solution Q (t_of u) (joined u xs).
 Proof.
-move=> u0 [_ [i0 Hi0 xi0] rows]; set x := join Q _ xs.
-have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
-have freeE k : (k < nf)%N -> free_of Q x k = free_values u xs k.
-  by move=> Hk; rewrite /x free_of_join.
-have part k : k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
-  move=> /in_free Hk; rewrite freeE // /free_values /Elimination.free_part; congr (- _).
-  by apply: sum_eq => j; rewrite mem_iota => Hj; rewrite slipE.
+move=> u0 [_ [i0 Hi0 xi0] rows]; set x := joined u xs.
+have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_joined.
+have part k := @joined_values u xs k.
 split.
 - exact: t_of_ge0.
 - have lt0 := in_local Hi0; exists (nth 0%N (slip Q) i0); first exact/slip_indices/mem_nth.
   by rewrite -[x _]/(slip_of Q x i0) slipE.
-- move=> i /(nthP 0%N)[k Hk <-]; apply: (mulfI (lt0r_neq0 q_gt0)); rewrite mulr0.
-  rewrite (reaction_free_at wf x (t_ofE u)) //; move: k Hk.
-  have vanish := (free_rows_vanish s_low_gt0 (below_at_u u0) _ _ _ _).2 part.
-  by move=> k Hk; apply: vanish; rewrite mem_iota.
+- exact/(free_values_rows x u0).
 move=> i /(nthP 0%N)[k Hk <-].
 have Hk' : k \in indices (pencil_for slopes grain) by rewrite mem_iota.
 have [x0 y0 xy] := rows _ Hk'; have f0 := row_factor_gt0_ Hk.
@@ -748,13 +754,13 @@ have [u [xs [bu sol reg uniq]]] : exists u xs,
   - by move=> u /unit_u[u0 _]; apply: free_det_neq0.
   by move=> u i j /unit_u[u0 _] _ _; apply: family_polyE.
 have [u0 u1] := unit_u _ (proj1 reg).
-pose x := join Q (free_values u xs) xs.
-have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
+pose x := joined u xs.
+have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_joined.
 have agree_ext (y z : nat -> R) : (forall j, (j < ns)%N -> y j = z j) ->
     agrees ns (Region lo hi st) y -> agrees ns (Region lo hi st) z.
   by move=> same ag j lt_j; have := ag j lt_j; rewrite same.
 exists (t_of u), x; split.
-- exact: between_local bu.
+- exact/between_local.
 - exact: from_family sol.
 - split; last by apply: agree_ext (proj2 reg) => j Hj; rewrite slipE.
   exact: between_t.
@@ -763,9 +769,7 @@ rewrite -(t_of_u t') in sol' *; move: v0 v1 sol'; set v := u_of t' => v0 v1 sol'
 have [fam_sol part'] := to_family true v0 sol'.
 have [vu [f f0 scaled]] := uniq v _ fam_sol (in_local_region v0 v1 ag').
 rewrite vu in part' *; split=> //; exists f => //.
-apply: (scaled_all (u := u)) => //.
-  by move=> k Hk; rewrite /x (free_of_join wf) ?in_free //; congr (- _); apply: sum_eq => j;
-     rewrite mem_iota => Hj; rewrite slipE.
+apply: (scaled_all (u := u)) => //; first exact: joined_values.
 by move=> j Hj; rewrite slipE //; apply: scaled; rewrite mem_iota.
 Qed.
 
@@ -779,20 +783,7 @@ Notation P := (pencil_for true grain).
 
 Lemma local_between t (e e' : point) :
   between t e e' -> between (u_of t) (local_point lo hi e) (local_point lo hi e').
-Proof.
-have [_ l2 h2 w0 _] := proper_parts; set u := u_of t.
-have m0 : 0 < toR (lo.2 * hi.2)%Z :> R by rewrite toRM mulr_gt0.
-have uE : u * toR width = t * toR (lo.2 * hi.2)%Z - toR (lo.1 * hi.2)%Z.
-  by rewrite /u /u_of divfK // gt_eqF.
-have localE (x : point) : u * toR (local_point lo hi x).2 - toR (local_point lo hi x).1 =
-    toR (lo.2 * hi.2)%Z * (t * toR x.2 - toR x.1).
-  have -> : u * toR (local_point lo hi x).2 = toR x.2 * (u * toR width).
-    by rewrite /local_point /= toRM mulrCA.
-  by rewrite uE /local_point /= !toRM !toRB !toRM; ring.
-case=> le1 le2; split.
-  by rewrite -subr_ge0 localE pmulr_rge0 // subr_ge0.
-by rewrite -subr_le0 localE pmulr_rle0 // subr_le0.
-Qed.
+Proof. by move=> bt; apply/between_local; rewrite t_of_u. Qed.
 
 Let O_local : ordered (lower local_r) (upper local_r).
 Proof. by []. Qed.
@@ -905,8 +896,7 @@ Proof.
 move=> sol' bt' ag'; have [v0 v1] := u_of_between bt'.
 have [A [B [E on on']]] := local_chord (lexx 0) ler01 v0 v1.
 have part k : k \in fi -> free_of Q x k = free_values 0 (slip_of Q x) k.
-  apply/(free_rows_vanish s_low_gt0 (below_at_u (lexx 0))) : k => k Hk; have lt_k := in_free Hk.
-  by rewrite -(reaction_free_at wf x (t_ofE 0)) // t_of_0 free_rows ?mulr0 // mem_nth.
+  by move: k; apply/(free_values_rows x (lexx 0)); rewrite t_of_0.
 have xk := pivot_moves.
 have [D kJ V0 _] := pinned_parts pin; set k := pin_pivot c in xk kJ V0.
 set V := nth _ _ _ in V0.

@@ -262,9 +262,7 @@ Lemma condensed_row t x j : (j < ns)%N ->
   image P A B t (slip_of Q x) j =
   scale_of R w j * toR (unit_of w) ^+ 2 * reaction Q t x (nth 0%N (slip Q) j).
 Proof.
-move=> lt_j xf; have [wf con pos shp _] := parts.
-rewrite (condensed_image (D := D) (xs := slip_of Q x) w t xf) ?mem_iota //.
-by rewrite -(reaction_slip wf).
+by have [wf con _ _ _] := parts; apply: condensed_reaction.
 Qed.
 
 Lemma known_sound n : (n < size (known_solutions Q claims))%N ->
@@ -289,10 +287,8 @@ have ca i := (columns_in_rows cols i).1; have cb i := (columns_in_rows cols i).2
 (* The free part of X is what the free rows demand. *)
 have free_X : forall k', k' \in iota 0 (size (free Q)) ->
     free_of Q X k' = free_part D (slip_of Q X) k'.
-  apply/(free_rows_vanish pos) => i; rewrite mem_iota add0n /= => lt_i.
-  rewrite -(reaction_free wf con 0) // /reaction -[RHS](toR0 R).
-  have /Z.eqb_spec <- := free0 _ (mem_nth 0%N lt_i).
-  rewrite (toR_sparse_dot R x (ca _)); apply: eq_bigr => j _.
+  apply: (free_part_of_rows wf con pos (t := 0)) => i /free0 /Z.eqb_spec zero.
+  rewrite /reaction -[RHS](toR0 R) -zero (toR_sparse_dot R x (ca _)); apply: eq_bigr => j _.
   by rewrite mul0r addr0.
 
 (* B X vanishes in the moving rows: the difference of the images at 1 and at 0. *)

@@ -461,29 +461,13 @@ Proof. by case/and4P: eliminated => c0 c1 /andP[? ?] /andP[? ?]. Qed.
 Lemma plain_free k : k \in iota 0 (size (free Q0)) -> free_of Q0 x k = free_part D0 xs k.
 Proof.
 have [[c0 _] [pos _] _] := eliminated_parts.
-apply/(free_rows_vanish pos) : k => k Hk; rewrite -(reaction_free wfQ c0 t).
-  by apply: (free_row_at (0, 1)%Z); apply: mem_nth; rewrite mem_iota in Hk.
-by rewrite mem_iota in Hk.
+exact: (free_part_of_rows wfQ c0 pos (free_row_at (0, 1)%Z)).
 Qed.
 
 Lemma friction_free k : k \in iota 0 (size (free Q1)) -> free_of Q1 x k = free_part D1 xs k.
 Proof.
 have [[_ c1] _ [pos _]] := eliminated_parts.
-apply/(free_rows_vanish pos) : k => k Hk; rewrite -(reaction_free (Q := Q1) wfQ c1 t).
-  by apply: (free_row_at (1, 0)%Z); apply: mem_nth; rewrite mem_iota in Hk.
-by rewrite mem_iota in Hk.
-Qed.
-
-Lemma slip_nonzero : exists2 i, i \in indices P0 & xs i != 0.
-Proof.
-have [/hasP[i Hi xi]|/hasPn zero] := boolP (has (fun i => xs i != 0) (indices P0)).
-  by exists i.
-have {}zero i : i \in indices P0 -> xs i = 0 by move/zero; rewrite negbK => /eqP.
-have [i Hi /eqP[]] := motion_variables.
-case/orP: (free_or_slip (Q := Q0) Hi) => /(nthP 0%N)[k lt_k <-]; last first.
-  by apply: zero; rewrite mem_iota.
-rewrite -[LHS]/(free_of Q0 x k) plain_free ?mem_iota // /free_part sum_zero ?oppr0 // => j Hj.
-by rewrite zero // mulr0.
+exact: (free_part_of_rows (Q := Q1) wfQ c1 pos (free_row_at (1, 0)%Z)).
 Qed.
 
 Lemma condensed_absent l : check_parts P0 P1 r low high l -> False.
@@ -496,11 +480,9 @@ apply: (parts_absent (condensation_encloses R p0 s0) (condensation_encloses R p1
   (row' := fun i => reaction Q1 t x (nth 0%N (slip Q0) i))).
 - by move: ag; rewrite -(size_slips z (Lambda2 0 1)).
 - by move=> i Hi; rewrite mulr_gt0 ?exprn_gt0 ?(scale_gt0 _ s0) ?(unit_gt0 _ s0).
-- move=> i Hi; rewrite (condensed_image (D := D0) e t plain_free) // -(reaction_slip wfQ) //.
-  exact: lt_slip.
-- move=> i Hi; rewrite (condensed_image (D := D1) e' t friction_free) //.
-  by rewrite -(reaction_slip (Q := Q1) wfQ) //; apply: lt_slip.
-- exact: slip_nonzero.
+- by move=> i /lt_slip lt_i; rewrite (condensed_reaction wfQ e t lt_i plain_free).
+- by move=> i /lt_slip lt_i; rewrite (condensed_reaction (Q := Q1) wfQ e' t lt_i friction_free).
+- exact: (slip_part_nonzero plain_free motion_variables).
 by move=> i /lt_slip lt_i; apply: slip_conditions; apply: mem_nth.
 Qed.
 

@@ -141,11 +141,9 @@ Notation P := (local_pencil (size (slip Q)) a low_a low_b fam lo hi false grain)
 Lemma free_at_u k : k \in iota 0 (size (free Q)) ->
   free_of Q x k = free_values Q a lo hi u (slip_of Q x) k.
 Proof.
-have [u0 u1] := u_of_between proper bt.
-have below := below_at_u wf expanded bounded_a bounded_b proper u0.
-apply/(free_rows_vanish (s_low_gt0 R bounded_a bounded_b proper) below) : k => k Hk.
-have lt_k := in_free Hk; rewrite -(reaction_free_at wf x (t_ofE expanded proper u)) //.
-by rewrite (t_of_u proper) rows_f ?mulr0 // mem_nth.
+have [u0 _] := u_of_between proper bt.
+move: k; apply/(free_values_rows wf expanded bounded_a bounded_b proper x u0).
+by rewrite (t_of_u proper).
 Qed.
 
 Lemma part_line : exists A B, encloses P A B /\
@@ -159,20 +157,6 @@ exists A, B; split=> // i lt_i.
 rewrite -[X in reaction Q X _ _](t_of_u proper t).
 rewrite -(local_image grain wf expanded proper false u0 lt_i free_at_u).
 by apply: sum_eq => j Hj; rewrite on // mem_iota.
-Qed.
-
-(* A vector without slip part vanishes. *)
-Lemma slip_part_nonzero : (exists2 i, i \in iota 0 (order Q) & x i != 0) ->
-  exists2 i, i \in indices P & slip_of Q x i != 0.
-Proof.
-have [/hasP[j Hj xj]|/hasPn none] :=
-  boolP (has (fun j => slip_of Q x j != 0) (iota 0 (size (slip Q)))); first by exists j.
-have zero j : j \in iota 0 (size (slip Q)) -> slip_of Q x j = 0.
-  by move/none; rewrite negbK => /eqP.
-case=> i Hi /eqP[].
-case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-]; last by apply: zero; rewrite mem_iota.
-rewrite -[LHS]/(free_of Q x k) free_at_u ?mem_iota // /free_values /Elimination.free_part.
-by rewrite sum_zero ?oppr0 // => j Hj; rewrite zero // mulr0.
 Qed.
 
 End Part.
@@ -241,7 +225,8 @@ apply: (parts_absent (r := r1) (t := u_of lo hi t) E E' (erefl _) O1 Om1 bu bm1
 - by move=> i /lt_ns lt_i; apply: (row_factor_gt0_ R expanded proper grain0).
 - by move=> i /lt_ns; apply: imageE.
 - by move=> i /lt_ns lt_i; rewrite -same_factor; apply: imageE'.
-- by case: (@slip_part_nonzero R Q a fam low_a low_b lo hi grain t x) => // i; exists i.
+- have part := free_at_u wf expanded bounded_a bounded_b proper bt rows_f.
+  by case: (slip_part_nonzero part nonzero) => j Hj xj; exists j.
 by move=> i /lt_ns lt_i; apply: signs; apply: mem_nth.
 Qed.
 

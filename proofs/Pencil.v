@@ -141,6 +141,22 @@ Qed.
 Definition free_of (x : nat -> R) k := x (nth 0%N (free Q) k).
 Definition slip_of (x : nat -> R) j := x (nth 0%N (slip Q) j).
 
+(* If the free variables are combinations of the others, then not all of these are 0. *)
+Lemma slip_part_nonzero (c : nat -> nat -> R) x :
+  (forall k, k \in iota 0 (size (free Q)) ->
+     free_of x k = - \sum_(j <- iota 0 (size (slip Q))) c j k * slip_of x j) ->
+  (exists2 i, i \in indices & x i != 0) ->
+  exists2 j, j \in iota 0 (size (slip Q)) & slip_of x j != 0.
+Proof.
+move=> part [i Hi xi]; apply/hasP; apply: contraNT xi => /hasPn none.
+have zero j : j \in iota 0 (size (slip Q)) -> slip_of x j = 0.
+  by move/none; rewrite negbK => /eqP.
+apply/eqP; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
+  rewrite -[LHS]/(free_of x k) part ?mem_iota // sum_zero ?oppr0 // => j Hj.
+  by rewrite zero // mulr0.
+by apply: zero; rewrite mem_iota.
+Qed.
+
 Hypothesis constant : free_rows_constant Q.
 
 Lemma b_entry_free i j : i \in free Q -> b_entry i j = 0.
@@ -196,6 +212,26 @@ split=> //.
   by apply: rows_f; rewrite mem_iota.
 move=> i /(nthP 0%N)[j Hj <-]; rewrite reaction_slip //.
 by apply: rows_s; rewrite mem_iota.
+Qed.
+
+(* The free part is what the free rows demand, and the other rows are condensed ones. *)
+Lemma free_part_of_rows w t x : stiffness_positive (blocks_of Q) w ->
+  (forall i, i \in free Q -> reaction t x i = 0) -> forall k, k \in iota 0 (size (free Q)) ->
+  free_of x k = free_part (blocks_of Q) (slip_of x) k.
+Proof.
+move=> pos rows; apply/(free_rows_vanish pos) => k; rewrite mem_iota add0n => lt_k.
+by rewrite -(reaction_free t) // rows // mem_nth.
+Qed.
+
+Lemma condensed_reaction w t x j : (j < size (slip Q))%N ->
+  (forall k, k \in iota 0 (size (free Q)) -> free_of x k = free_part (blocks_of Q) (slip_of x) k) ->
+  image (condensed (blocks_of Q) w) (A_condensed R (blocks_of Q) w) (B_condensed R (blocks_of Q) w)
+    t (slip_of x) j =
+  scale_of R w j * toR (unit_of w) ^+ 2 * reaction t x (nth 0%N (slip Q) j).
+Proof.
+move=> lt_j part; rewrite (condensed_image (D := blocks_of Q) (xs := slip_of x) w t part).
+  by rewrite -reaction_slip.
+by rewrite mem_iota.
 Qed.
 
 (* The way back from the parts to a vector. *)

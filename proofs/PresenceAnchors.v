@@ -93,36 +93,6 @@ Definition check_presence (pieces : seq presence_piece) (from bound : point) :=
 
 End Checker.
 
-(* A vector x over the slip variables, with the free variables that it determines. *)
-Section Joined.
-
-Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
-Variables (lo hi : point) (u : R) (x : nat -> R).
-Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
-Hypothesis bounded_a : bounded_rows (size (free Q)) (ff_block Q (row_a Q)) low_a.
-Hypothesis bounded_b : bounded_rows (size (free Q)) (ff_block Q (row_b Q)) low_b.
-Hypothesis proper : proper_interval a low_a low_b lo hi.
-Hypothesis u0 : 0 <= u.
-
-Lemma free_part_rows :
-  (forall k, k \in iota 0 (size (free Q)) ->
-     free_of Q x k = free_values Q a lo hi u (slip_of Q x) k) <->
-  (forall i, i \in free Q -> reaction Q (t_of lo hi u) x i = 0).
-Proof.
-have below := below_at_u wf expanded bounded_a bounded_b proper u0.
-have s0 := s_low_gt0 R bounded_a bounded_b proper.
-have q0 := q_gt0 R expanded.
-split=> [part i /(nthP 0%N)[k lt_k <-]|rows].
-  apply: (mulfI (lt0r_neq0 q0)); rewrite mulr0.
-  rewrite (reaction_free_at wf x (t_ofE expanded proper u)) //.
-  by move: k lt_k => k lt_k; apply: (proj2 (free_rows_vanish s0 below _ _ _ _) part);
-     rewrite mem_iota.
-apply/(free_rows_vanish s0 below) => k Hk; have lt_k := in_free Hk.
-by rewrite -(reaction_free_at wf x (t_ofE expanded proper u)) // rows ?mulr0 // mem_nth.
-Qed.
-
-End Joined.
-
 (* Over two intervals the matrix at one value differs by a positive factor. *)
 Section Intervals.
 
@@ -299,17 +269,14 @@ have [u [xs [bu [i0 Hi0 xi0] ag signs]]] :=
     (N := fun i j => N0 i j * d1 + mu *: (N1 i j * d0)) regular_d family_d ok.
 have [u0 u1] := unit_u u bu.
 
-pose t := t_of lo hi u; pose x := join Q (free_values Q a lo hi u xs) xs.
-have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_join.
-have part k : k \in iota 0 (size (free Q)) ->
-    free_of Q x k = free_values Q a lo hi u (slip_of Q x) k.
-  move=> /in_free Hk; rewrite free_of_join // /free_values /Elimination.free_part; congr (- _).
-  by apply: sum_eq => j; rewrite mem_iota => Hj; rewrite slipE.
+pose t := t_of lo hi u; pose x := joined Q a lo hi u xs.
+have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_joined.
+have part := joined_values a lo hi wf u xs.
 have rows : forall i, i \in free Q -> reaction Q t x i = 0.
-  exact/(free_part_rows x wf expanded bounded_a bounded_b proper u0).
+  exact/(free_values_rows wf expanded bounded_a bounded_b proper x u0).
 have rows' : forall i, i \in free Q' -> reaction Q' t x i = 0.
   by move=> i Hi; rewrite same_rows // rows.
-have part' := (free_part_rows (Q := Q') x wf expanded' bounded_a' bounded_b' proper' u0).2 rows'.
+have part' := (free_values_rows (Q := Q') wf expanded' bounded_a' bounded_b' proper' x u0).1 rows'.
 exists t, x; split=> //.
 - split; first exact: (between_t proper).
   by move=> j lt_j; rewrite slipE //; apply: ag.

@@ -577,15 +577,13 @@ by rewrite cross mulr0 addr0.
 Qed.
 
 (* A motion along the tangents, and of free degrees of freedom. *)
-Lemma motion_restored v : (forall d, d \in all_dofs -> d \notin moving_dofs s -> v d = 0) ->
+Lemma motion_at_moving v :
   (forall j, (j < ns)%N -> along (normal (particle s j)) (particle s j) v = 0) ->
-  forall d, d \in all_dofs -> motion (variables_of v) d = v d.
+  forall d, d \in moving_dofs s -> motion (variables_of v) d = v d.
 Proof.
 have l0 := lt0r_neq0 unit_length_gt0.
 have l2 : toR (unit_length s) ^+ 2 != 0 :> R by rewrite expf_neq0.
-move=> at_rest tangents d Hd.
-have [d_in|d_out] := boolP (d \in moving_dofs s); last by rewrite motion_zero // at_rest.
-
+move=> tangents d d_in.
 have at_particle j : (j < ns)%N -> let p := particle s j in
     motion (variables_of v) (first_dof p) = v (first_dof p) /\
     motion (variables_of v) (second_dof p) = v (second_dof p).
@@ -604,6 +602,15 @@ move: d_in; rewrite !mem_cat => /or3P[/(nthP 0%N)[k lt_k <-]||].
   by case: (at_particle _ lt_j).
 case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-.
 by case: (at_particle _ lt_j).
+Qed.
+
+Lemma motion_restored v : (forall d, d \in all_dofs -> d \notin moving_dofs s -> v d = 0) ->
+  (forall j, (j < ns)%N -> along (normal (particle s j)) (particle s j) v = 0) ->
+  forall d, d \in all_dofs -> motion (variables_of v) d = v d.
+Proof.
+move=> at_rest tangents d d_all.
+have [/(motion_at_moving tangents)//|d_out] := boolP (d \in moving_dofs s).
+by rewrite motion_zero // at_rest.
 Qed.
 
 Lemma motion_of_variables lambda2 mu v : conditions_9 lambda2 mu v ->

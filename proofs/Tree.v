@@ -168,7 +168,8 @@ elim: tr r low high => [c tr1 IH1 tr2 IH2|c tr1 IH1 tr2 IH2|i tr1 IH1 tr2 IH2|l]
   by apply: IH2 c2 reg _; split=> //; apply: ltW.
 
 (* Branch: x_i is zero or positive. *)
-- case/and3P=> lt_i c1 c2 [bt ag] m_in; apply: either; have [xi|xi] := eqVneq (x i) 0; [left | right].
+- case/and3P=> lt_i c1 c2 [bt ag] m_in; apply: either.
+  have [xi|xi] := eqVneq (x i) 0; [left | right].
     by apply: IH1 c1 _ m_in; split=> //; apply: agrees_decide.
   apply: IH2 c2 _ m_in; split=> //; apply: agrees_decide => //.
   by rewrite lt_neqAle eq_sym xi x0.

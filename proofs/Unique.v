@@ -185,16 +185,14 @@ Proof.
 move=> W rows_f rows_s; have /andP[positive shaped] := elim.
 have xfE : forall k, k \in iota 0 (free_count D) ->
     free_of Q x k = free_part D (slip_of Q x) k.
-  apply: (free_rows_vanish positive (free_of Q x) (slip_of Q x)).1 => i.
-  rewrite mem_iota add0n => /= lt_i; rewrite -(reaction_free wf constant t) //.
-  by apply: rows_f; apply: mem_nth.
+  exact: (free_part_of_rows wf constant positive rows_f).
 have xs0 j : j \in iota 0 (slip_count D) -> slip_of Q x j = 0.
   apply: (reversed_zero (condensation_encloses R positive shaped) O W L H) => i Hi.
-  rewrite (condensed_image w t xfE) //.
   have lt_i : (i < size (slip Q))%N by move: Hi; rewrite mem_iota.
+  rewrite (condensed_reaction wf w t lt_i xfE).
   have scale0 : 0 < scale_of R w i * toR (unit_of w) ^+ 2.
     by rewrite mulr_gt0 ?(scale_gt0 R shaped) // exprn_gt0 // (unit_gt0 R shaped).
-  rewrite mulrCA pmulr_rle0 // -(reaction_slip wf) //.
+  rewrite mulrCA pmulr_rle0 //.
   by apply: rows_s; apply: mem_nth.
 move=> i /free_or_slip/orP[] /(nthP 0%N)[k lt_k <-].
   rewrite -/(free_of Q x k) xfE ?mem_iota // /free_part big_seq big1 ?oppr0 // => j /xs0->.

@@ -660,25 +660,7 @@ rewrite zero_motion_moving //.
 transitivity (motion s (variables_of s v) d).
   rewrite /motion; case col: (column s d) => [[j c]|] //.
   by rewrite /zero_variables_of (column_in_range col).
-have at_particle j : (j < ns)%N -> let p := particle s j in
-    motion s (variables_of s v) (first_dof p) = v (first_dof p) /\
-    motion s (variables_of s v) (second_dof p) = v (second_dof p).
-  move=> lt_j p; have nv := slips _ lt_j.
-  have [sq tt nn tn] := particle_parts R wf_s lt_j.
-  have [v1 v2] := along_tangent tt nn tn nv.
-  rewrite /motion (column_first wf_s) // (column_second wf_s) // /variables_of.
-  rewrite ltnNge leq_addr /= addKn -/p.
-  have back c a : toR c * along (tangent p) p v = L ^+ 2 * a ->
-      toR (- (sign_of p * c)) * - (slip_rate v p / L ^+ 2) = a.
-    move=> eq; apply: (mulfI l2); rewrite -eq -[RHS]mul1r -sq /slip_rate toRN toRM.
-    by move: (along _ _ _) (toR c) (toR (sign_of p)) => *; field; exact: lt0r_neq0.
-  by split; apply: back; rewrite ?v1 ?v2.
-move: d_moving; rewrite !mem_cat => /or3P[/(nthP 0%N)[k lt_k <-]||].
-- by rewrite (motion_free wf_s) // /variables_of lt_k mulrC divfK // lt0r_neq0.
-- case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -first_particle // => <-.
-  by case: (at_particle _ lt_j).
-case/(nthP 0%N)=> j; rewrite size_map => lt_j; rewrite -second_particle // => <-.
-by case: (at_particle _ lt_j).
+exact: (motion_at_moving wf_s slips).
 Qed.
 
 Lemma variables_of_conditions lambda2 mu v : conditions_9z z lambda2 mu v ->
