@@ -34,7 +34,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Cover Condensation.
-From Mceip Require Import Pencil Whole Complete System ZeroReaction ZeroEnclosed ZeroPencil.
+From Mceip Require Import Pencil Whole Complete System ZeroReaction Forms ZeroPencil.
 From Mceip Require Import ZeroPower Boxes Regular.
 
 Set Implicit Arguments.

@@ -12,11 +12,10 @@ From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt.
 From mathcomp Require Import all_ssreflect.
 From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
-From Mceip Require Import ZeroEnclosed.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Covers Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import ZeroPencil ZeroComplete Points Rational Statement
+From Mceip Require Import ZeroPencil ZeroEnclosed ZeroComplete Points Rational Statement
   Integral Equilibrium Unique Verdict.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
@@ -58,7 +57,7 @@ Set Extraction AccessOpaque.
 
 Extraction "kernel.ml"
   answer integral_answer scaled slips slipping with_zero long_normal complementarity zero_system_of
-  pencil_of_integral support_pencil slipping_variables
+  pencil_of_integral support_pencil
   sliding_poly pressure_poly right_poly left_poly check_solution_claim reaction_poly
   regions_found families_of regions_open zero_undecided pencil_of blocks_of condensed slip zero
   infinity window check_whole check_end

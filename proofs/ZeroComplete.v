@@ -32,8 +32,8 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs.
-From Mceip Require Import Support System Families Varying Covers ZeroReaction ZeroEnclosed.
-From Mceip Require Import ZeroPencil.
+From Mceip Require Import Support System Families Varying Covers ZeroReaction Forms.
+From Mceip Require Import ZeroPencil ZeroEnclosed.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -247,32 +247,14 @@ Lemma zero_box_known (R : rcfType) z u b : zero_wellformed z u ->
   exists (t : R) x, known_solution (zero_pencil z u) (known_box z u b) t x.
 Proof.
 move=> wf ok; have [t [v [bt sat slips zeros _]]] := zero_enclosed_sound R ok.
+case/and5P: ok => _ /allP in_range halves _ _; exists t, (zero_variables_of z v).
 have names : all (fun i => i \in slip (zero_pencil z u)) (box_names b).
-  case/and5P: ok => _ /allP in_range _ _ _; apply/allP=> i /in_range /andP[ge_i lt_i].
+  apply/allP=> i /in_range /andP[ge_i lt_i].
   by rewrite mem_filter !mem_iota !add0n -leqNgt ge_i.
-have l2 : 0 < toR (unit_length (without_zero z)) ^+ 2 :> R := L2_gt0 R wf.
-exists t, (zero_variables_of z v); split=> //; first exact: zero_pencil_solution.
-move=> k lt_k; rewrite (mem_positions lt_k names) /slip_of.
-case: (zero_slip_cases (mem_nth 0%N lt_k)) => [[j lt_j ->]|[j lt_j cases]].
-  have [pos zero _ _] := slips _ lt_j.
-  rewrite /zero_variables_of ltn_add2l lt_j /variables_of ltnNge leq_addr /= addKn.
-  split=> [/pos rate|/zero ->|//]; last by rewrite mul0r oppr0.
-  by rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
-have [gapE rightE leftE] := variables_at v lt_j.
-have [opening _ sliding _ _] := zeros _ lt_j.
-have [c c0 normalE] := along_normal wf v lt_j; rewrite normalE in opening.
-case: cases => ->.
-- rewrite gapE; move: opening; case: (gap z j \in box_names b) => /= [|/eqP].
-    by rewrite pmulr_rlt0 // => neg; split; rewrite // oppr_gt0 pmulr_llt0 ?invr_gt0.
-  by rewrite mulf_eq0 gt_eqF //= => /eqP->; split; rewrite // mul0r oppr0.
-- rewrite rightE pmulr_lgt0 ?invr_gt0 //; move: sliding; case: (right z j \in _) => /=.
-    by case=> _ pos; rewrite pos; split=> // _; rewrite divr_gt0.
-  case: (left z j \in _) => /= [neg|->]; last by rewrite ltxx; split.
-  by rewrite (lt_gtF neg); split.
-rewrite leftE pmulr_llt0 ?invr_gt0 //; move: sliding; case: (right z j \in _) => /=.
-  by case=> /negbTE-> pos; rewrite (lt_gtF pos); split.
-case: (left z j \in _) => /= [neg|->]; last by rewrite ltxx; split.
-by rewrite neg; split=> // _; rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
+split=> // [|k lt_k]; first exact: zero_pencil_solution.
+rewrite (mem_positions lt_k names) /slip_of; split=> //.
+  by have [] := moving_variables wf halves (moves_of_support slips zeros) (mem_nth 0%N lt_k).
+by have [] := moving_variables wf halves (moves_of_support slips zeros) (mem_nth 0%N lt_k).
 Qed.
 
 (* Boxes beside the regions that a cover leaves undecided. *)

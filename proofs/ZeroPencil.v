@@ -35,7 +35,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System.
-From Mceip Require Import ZeroReaction ZeroEnclosed.
+From Mceip Require Import ZeroReaction Forms.
 
 Set Implicit Arguments.
 Unset Strict Implicit.

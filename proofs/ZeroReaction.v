@@ -323,8 +323,8 @@ exact: (negative_at interval at_ tb root_t).
 Qed.
 
 (* A row whose polynomial is a positive multiple. *)
-Lemma row_sign_factor i (f y : R) : 0 < f ->
-  row_sign i (support k) (biactive k) (f * y) -> row_sign i (support k) (biactive k) y.
+Lemma row_sign_factor i support biactive (f y : R) : 0 < f ->
+  row_sign i support biactive (f * y) -> row_sign i support biactive y.
 Proof.
 move=> f0; rewrite /row_sign; case: ifP => _; last by rewrite pmulr_rlt0.
 by move/eqP; rewrite mulf_eq0 gt_eqF //= => /eqP.

@@ -1416,28 +1416,9 @@ let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
   let pivots = List.sort (fun p q -> Q.compare sizes.(q) sizes.(p)) support in
   List.find_map attempt (List.filteri (fun i _ -> i < (if m <= 16 then 3 else 1)) pivots)
 
-(* The box of a claim with zero reaction, as one for the pencil of the kernel: the motion of its
-   center, then the rates of the slip particles in the support, in the same units. *)
+(* The box of a claim with zero reaction, as one for the pencil of the kernel. *)
 let zero_enclosed_of (zero : Kernel.zero_system) unknown (e : enclosed) =
-  let system = zero.without_zero in
-  let frees = List.length system.free_dofs in
-  let x = Array.make (frees + List.length system.particles
-                      + 3 * List.length zero.zero_particles) [] in
-  let active = List.init frees Fun.id @ e.box_support in
-  List.iteri (fun p i -> x.(i) <- [List.nth e.center p]) active;
-  let component = function [] -> Q.zero | c :: _ -> c in
-  let motion = Array.to_list (Array.map component (motion_of_variables zero x)) in
-
-  let slipping = Kernel.slipping_variables zero e.box_support in
-  let rate i =
-    Q.mul (Q.of_bigint system.unit_length) (component x.(frees + i - system.dofs)) in
-  let value = List.nth e.center (List.length active) in
-  let components = motion @ List.map rate slipping in
-  let least = List.fold_left Q.min (List.hd e.radius) e.radius in
-  let value_radius = List.nth e.radius (List.length active) in
-  enclosed_claim_of (Kernel.support_pencil zero unknown e.box_support)
-    { e with box_support = slipping; center = components @ [value];
-             radius = List.map (fun _ -> least) components @ [value_radius] }
+  enclosed_claim_of (Kernel.support_pencil zero unknown e.box_support) e
 
 (* Root leaves where a gap and a half move: a box for the solution, and a leaf that pins its region.
    [undecided] puts the box beside the region that is left undecided. *)

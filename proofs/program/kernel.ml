@@ -3164,247 +3164,6 @@ let check_zero z0 u c =
                     (has (dof_moves c.lifted_part)
                       (iota 0 z0.without_zero.dofs))))))))))
 
-type form = sparse_row * sparse_row
-
-(** val rate_form : planar -> slip_particle -> form **)
-
-let rate_form e p =
-  (((p.first_dof, (fst e)) :: ((p.second_dof, (snd e)) :: [])), [])
-
-(** val at_both :
-    (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
-
-let at_both rows p e =
-  cat (multiple (fst e) (rows p.first_dof))
-    (multiple (snd e) (rows p.second_dof))
-
-(** val force_form : zero_system -> unknown -> int -> form **)
-
-let force_form z0 u d =
-  ((k_row z0.without_zero d),
-    (match u with
-     | Mu -> []
-     | Lambda2 (_, _) -> m_row z0.without_zero d))
-
-(** val pressing_form :
-    zero_system -> unknown -> planar -> slip_particle -> form **)
-
-let pressing_form z0 u e p =
-  ((at_both (k_row z0.without_zero) p e),
-    (match u with
-     | Mu -> []
-     | Lambda2 (_, _) -> at_both (m_row z0.without_zero) p e))
-
-(** val cone_form : zero_system -> unknown -> slip_particle -> form **)
-
-let cone_form z0 u p =
-  match u with
-  | Mu ->
-    ((at_both (k_row z0.without_zero) p
-       (direction p.sign_of Big_int_Z.zero_big_int p)),
-      (at_both (k_row z0.without_zero) p
-        (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
-  | Lambda2 (m, q) ->
-    ((at_both (k_row z0.without_zero) p
-       (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
-      (at_both (m_row z0.without_zero) p
-        (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
-
-(** val negative : form -> form **)
-
-let negative f =
-  ((multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (fst f)),
-    (multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (snd f)))
-
-(** val sliding_form : slip_particle -> form **)
-
-let sliding_form p =
-  rate_form (direction p.sign_of Big_int_Z.zero_big_int p) p
-
-(** val slides : zero_system -> int list -> int -> bool **)
-
-let slides z0 support0 j =
-  in_mem (Obj.magic addn (free_number z0.without_zero) j)
-    (mem (seq_predType nat_eqType) (Obj.magic support0))
-
-(** val sliding_line : zero_system -> int -> form **)
-
-let sliding_line z0 j =
-  ((((addn z0.without_zero.dofs j),
-    Big_int_Z.unit_big_int) :: (fst
-                                 (sliding_form (particle z0.without_zero j)))),
-    [])
-
-(** val slip_equations : zero_system -> int list -> int -> form list **)
-
-let slip_equations z0 support0 j =
-  let p = particle z0.without_zero j in
-  (rate_form p.normal p) :: ((if slides z0 support0 j
-                              then sliding_line z0 j
-                              else sliding_form p) :: [])
-
-(** val zero_equations :
-    zero_system -> unknown -> int list -> int -> form list **)
-
-let zero_equations z0 u support0 j =
-  let p = zero_particle z0 j in
-  if in_mem (Obj.magic gap z0 j)
-       (mem (seq_predType nat_eqType) (Obj.magic support0))
-  then (pressing_form z0 u p.normal p) :: ((pressing_form z0 u p.tangent p) :: [])
-  else (rate_form p.normal p) :: ((if in_mem (Obj.magic right z0 j)
-                                        (mem (seq_predType nat_eqType)
-                                          (Obj.magic support0))
-                                   then cone_form z0 u
-                                          (with_sign (Big_int_Z.minus_big_int
-                                            Big_int_Z.unit_big_int) p)
-                                   else if in_mem (Obj.magic left z0 j)
-                                             (mem (seq_predType nat_eqType)
-                                               (Obj.magic support0))
-                                        then cone_form z0 u
-                                               (with_sign
-                                                 Big_int_Z.unit_big_int p)
-                                        else rate_form p.tangent p) :: [])
-
-(** val all_equations : zero_system -> unknown -> int list -> form list **)
-
-let all_equations z0 u support0 =
-  cat (map0 (fun d -> force_form z0 u d) z0.without_zero.free_dofs)
-    (cat
-      (flatten
-        (map0 (fun j -> slip_equations z0 support0 j)
-          (iota 0 (size z0.without_zero.particles))))
-      (cat
-        (flatten
-          (map0 (fun j -> zero_equations z0 u support0 j)
-            (iota 0 (size z0.zero_particles))))
-        (map0 (fun d -> (((d, Big_int_Z.unit_big_int) :: []), []))
-          (filter (fun d ->
-            negb
-              (in_mem (Obj.magic d)
-                (mem (seq_predType nat_eqType)
-                  (Obj.magic moving_with_zero z0))))
-            (iota 0 z0.without_zero.dofs)))))
-
-(** val slip_line : zero_system -> unknown -> int -> form **)
-
-let slip_line z0 u j =
-  negative (cone_form z0 u (particle z0.without_zero j))
-
-(** val zero_inequalities :
-    zero_system -> unknown -> int list -> int -> form list **)
-
-let zero_inequalities z0 u support0 j =
-  let p = zero_particle z0 j in
-  let opening = negative (rate_form p.normal p) in
-  let opens =
-    in_mem (Obj.magic gap z0 j)
-      (mem (seq_predType nat_eqType) (Obj.magic support0))
-  in
-  (if opens then opening else negative (pressing_form z0 u p.normal p)) :: ((
-  if in_mem (Obj.magic right z0 j)
-       (mem (seq_predType nat_eqType) (Obj.magic support0))
-  then rate_form p.tangent p
-  else if opens
-       then opening
-       else negative
-              (cone_form z0 u
-                (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p))) :: ((
-  if in_mem (Obj.magic left z0 j)
-       (mem (seq_predType nat_eqType) (Obj.magic support0))
-  then negative (rate_form p.tangent p)
-  else if opens
-       then opening
-       else negative (cone_form z0 u (with_sign Big_int_Z.unit_big_int p))) :: []))
-
-(** val all_inequalities : zero_system -> unknown -> int list -> form list **)
-
-let all_inequalities z0 u support0 =
-  flatten
-    (map0 (fun j -> zero_inequalities z0 u support0 j)
-      (iota 0 (size z0.zero_particles)))
-
-(** val all_forms : zero_system -> unknown -> int list -> form list **)
-
-let all_forms z0 u support0 =
-  cat (all_equations z0 u support0)
-    (cat
-      (map0 (fun j -> slip_line z0 u j)
-        (iota 0 (size z0.without_zero.particles)))
-      (all_inequalities z0 u support0))
-
-(** val pencil_of_forms : zero_system -> form list -> pencil **)
-
-let pencil_of_forms z0 forms =
-  { order = (size forms); rows_a = (map0 fst forms); rows_b =
-    (map0 snd forms); free = (iota 0 z0.without_zero.dofs) }
-
-(** val support_pencil : zero_system -> unknown -> int list -> pencil **)
-
-let support_pencil z0 u support0 =
-  pencil_of_forms z0 (all_forms z0 u support0)
-
-(** val slipping_variables : zero_system -> int list -> int list **)
-
-let slipping_variables z0 support0 =
-  map0 (fun j -> addn z0.without_zero.dofs j)
-    (filter (fun j -> slides z0 support0 j)
-      (iota 0 (size z0.without_zero.particles)))
-
-(** val one_half : zero_system -> int list -> int -> bool **)
-
-let one_half z0 support0 j =
-  (&&)
-    (negb
-      ((&&)
-        (in_mem (Obj.magic right z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))
-        (in_mem (Obj.magic left z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
-    (implb
-      (in_mem (Obj.magic gap z0 j)
-        (mem (seq_predType nat_eqType) (Obj.magic support0)))
-      ((||)
-        (in_mem (Obj.magic right z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))
-        (in_mem (Obj.magic left z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
-
-(** val resting_halves : zero_system -> int list -> int list **)
-
-let resting_halves z0 support0 =
-  cat
-    (map0 (fun j -> left z0 j)
-      (filter (fun j ->
-        (&&)
-          (in_mem (Obj.magic gap z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0)))
-          (in_mem (Obj.magic right z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0))))
-        (iota 0 (size z0.zero_particles))))
-    (map0 (fun j -> right z0 j)
-      (filter (fun j ->
-        (&&)
-          (in_mem (Obj.magic gap z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0)))
-          (in_mem (Obj.magic left z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0))))
-        (iota 0 (size z0.zero_particles))))
-
-(** val check_zero_enclosed :
-    zero_system -> unknown -> int list -> enclosed_claim -> bool **)
-
-let check_zero_enclosed z0 u support0 c =
-  (&&) (zero_wellformed z0 u)
-    ((&&) (zero_variables z0 support0)
-      ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
-        ((&&)
-          (eq_op nat_eqType (Obj.magic size (all_equations z0 u support0))
-            (Obj.magic z0.without_zero.dofs))
-          ((&&)
-            (eq_op (seq_eqType nat_eqType) (Obj.magic c.box_support)
-              (Obj.magic slipping_variables z0 support0))
-            (check_enclosed_claim (support_pencil z0 u support0) c)))))
-
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
 type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
@@ -5175,6 +4934,53 @@ let box_regular p p' r w =
         (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c))
           four_corners)))
 
+type form = sparse_row * sparse_row
+
+(** val at_both :
+    (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
+
+let at_both rows p e =
+  cat (multiple (fst e) (rows p.first_dof))
+    (multiple (snd e) (rows p.second_dof))
+
+(** val force_form : zero_system -> unknown -> int -> form **)
+
+let force_form z0 u d =
+  ((k_row z0.without_zero d),
+    (match u with
+     | Mu -> []
+     | Lambda2 (_, _) -> m_row z0.without_zero d))
+
+(** val pressing_form :
+    zero_system -> unknown -> planar -> slip_particle -> form **)
+
+let pressing_form z0 u e p =
+  ((at_both (k_row z0.without_zero) p e),
+    (match u with
+     | Mu -> []
+     | Lambda2 (_, _) -> at_both (m_row z0.without_zero) p e))
+
+(** val cone_form : zero_system -> unknown -> slip_particle -> form **)
+
+let cone_form z0 u p =
+  match u with
+  | Mu ->
+    ((at_both (k_row z0.without_zero) p
+       (direction p.sign_of Big_int_Z.zero_big_int p)),
+      (at_both (k_row z0.without_zero) p
+        (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
+  | Lambda2 (m, q) ->
+    ((at_both (k_row z0.without_zero) p
+       (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
+      (at_both (m_row z0.without_zero) p
+        (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
+
+(** val negative : form -> form **)
+
+let negative f =
+  ((multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (fst f)),
+    (multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (snd f)))
+
 (** val zero_firsts : zero_system -> int list **)
 
 let zero_firsts z0 =
@@ -5743,6 +5549,75 @@ let check_presence z0 w pieces from bound1 =
     ((&&) (both_bounded z0 w)
       ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
         (check_pieces z0 w families0 from pieces bound1)))
+
+(** val one_half : zero_system -> int list -> int -> bool **)
+
+let one_half z0 support0 j =
+  (&&)
+    (negb
+      ((&&)
+        (in_mem (Obj.magic right z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic left z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
+    (implb
+      (in_mem (Obj.magic gap z0 j)
+        (mem (seq_predType nat_eqType) (Obj.magic support0)))
+      ((||)
+        (in_mem (Obj.magic right z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic left z0 j)
+          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
+
+(** val resting_halves : zero_system -> int list -> int list **)
+
+let resting_halves z0 support0 =
+  cat
+    (map0 (fun j -> left z0 j)
+      (filter (fun j ->
+        (&&)
+          (in_mem (Obj.magic gap z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0)))
+          (in_mem (Obj.magic right z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0))))
+        (iota 0 (size z0.zero_particles))))
+    (map0 (fun j -> right z0 j)
+      (filter (fun j ->
+        (&&)
+          (in_mem (Obj.magic gap z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0)))
+          (in_mem (Obj.magic left z0 j)
+            (mem (seq_predType nat_eqType) (Obj.magic support0))))
+        (iota 0 (size z0.zero_particles))))
+
+(** val support_pencil : zero_system -> unknown -> int list -> pencil **)
+
+let support_pencil z0 u support0 =
+  let given = fun b row i ->
+    if in_mem i
+         (mem (seq_predType nat_eqType)
+           (Obj.magic resting_halves z0 support0))
+    then b
+    else row (zero_pencil z0 u) i
+  in
+  { order = (zero_pencil z0 u).order; rows_a =
+  (map0 (fun i ->
+    Obj.magic given (((head 0 support0), Big_int_Z.unit_big_int) :: []) row_a
+      i) (iota 0 (zero_pencil z0 u).order)); rows_b =
+  (map0 (fun i -> Obj.magic given [] row_b i)
+    (iota 0 (zero_pencil z0 u).order)); free = (zero_pencil z0 u).free }
+
+(** val check_zero_enclosed :
+    zero_system -> unknown -> int list -> enclosed_claim -> bool **)
+
+let check_zero_enclosed z0 u support0 c =
+  (&&) (zero_wellformed z0 u)
+    ((&&) (zero_variables z0 support0)
+      ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
+        ((&&)
+          (eq_op (seq_eqType nat_eqType) (Obj.magic c.box_support)
+            (Obj.magic support0))
+          (check_enclosed_claim (support_pencil z0 u support0) c))))
 
 type pinned_box = { box_interval : interval; near_anchor : int;
                     near_grain : Big_int_Z.big_int; box_pinning : pinning;

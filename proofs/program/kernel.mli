@@ -1085,53 +1085,6 @@ val zero_variables : zero_system -> int list -> bool
 
 val check_zero : zero_system -> unknown -> zero_claim -> bool
 
-type form = sparse_row * sparse_row
-
-val rate_form : planar -> slip_particle -> form
-
-val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row
-
-val force_form : zero_system -> unknown -> int -> form
-
-val pressing_form : zero_system -> unknown -> planar -> slip_particle -> form
-
-val cone_form : zero_system -> unknown -> slip_particle -> form
-
-val negative : form -> form
-
-val sliding_form : slip_particle -> form
-
-val slides : zero_system -> int list -> int -> bool
-
-val sliding_line : zero_system -> int -> form
-
-val slip_equations : zero_system -> int list -> int -> form list
-
-val zero_equations : zero_system -> unknown -> int list -> int -> form list
-
-val all_equations : zero_system -> unknown -> int list -> form list
-
-val slip_line : zero_system -> unknown -> int -> form
-
-val zero_inequalities : zero_system -> unknown -> int list -> int -> form list
-
-val all_inequalities : zero_system -> unknown -> int list -> form list
-
-val all_forms : zero_system -> unknown -> int list -> form list
-
-val pencil_of_forms : zero_system -> form list -> pencil
-
-val support_pencil : zero_system -> unknown -> int list -> pencil
-
-val slipping_variables : zero_system -> int list -> int list
-
-val one_half : zero_system -> int list -> int -> bool
-
-val resting_halves : zero_system -> int list -> int list
-
-val check_zero_enclosed :
-  zero_system -> unknown -> int list -> enclosed_claim -> bool
-
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
 type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
@@ -1683,6 +1636,18 @@ val four_corners : int list
 
 val box_regular : enclosed -> enclosed -> region -> regular -> bool
 
+type form = sparse_row * sparse_row
+
+val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row
+
+val force_form : zero_system -> unknown -> int -> form
+
+val pressing_form : zero_system -> unknown -> planar -> slip_particle -> form
+
+val cone_form : zero_system -> unknown -> slip_particle -> form
+
+val negative : form -> form
+
 val zero_firsts : zero_system -> int list
 
 val zero_seconds : zero_system -> int list
@@ -1852,6 +1817,15 @@ val check_pieces :
 val check_presence :
   zero_system -> box_anchoring -> presence_piece list -> point -> point ->
   bool
+
+val one_half : zero_system -> int list -> int -> bool
+
+val resting_halves : zero_system -> int list -> int list
+
+val support_pencil : zero_system -> unknown -> int list -> pencil
+
+val check_zero_enclosed :
+  zero_system -> unknown -> int list -> enclosed_claim -> bool
 
 type pinned_box = { box_interval : interval; near_anchor : int;
                     near_grain : Big_int_Z.big_int; box_pinning : pinning;
