@@ -34,7 +34,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Cover Condensation.
-From Mceip Require Import Pencil Whole Complete System ZeroReaction Forms ZeroPencil.
+From Mceip Require Import Pencil Whole Complete System ZeroReaction ZeroPencil.
 From Mceip Require Import ZeroPower Boxes Regular.
 
 Set Implicit Arguments.
@@ -316,7 +316,7 @@ Lemma freed_variables : exists2 i, i \in iota 0 (order (pencil_at z (0, 1)%Z)) &
 Proof.
 have [[d d_in vd] _ _ _ _] := sat.
 apply/hasP; apply: contraNT vd => /hasPn none; rewrite -freed_motion //.
-rewrite /zero_motion nth_table // /row_value big_seq big1 // => c c_in.
+rewrite /zero_motion /table_motion nth_table // /row_value big_seq big1 // => c c_in.
 have small := columns_small c_in.
 by have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->; rewrite mulr0.
 Qed.

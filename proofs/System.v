@@ -33,8 +33,9 @@
    support and the biactive variables of the claim ([has_support]).  [system_enclosed]: the same for
    an enclosed claim, without biactive variables.
 
-   The pencil is in the order of spec/certificates.md: free degrees of freedom, then slip
-   particles.  Particles in contact with zero reaction: ZeroReaction.v.
+   The rows of the pencil are linear forms of the motion ([system_forms]), put into its variables by
+   a table ([table_row]).  They are in the order of spec/certificates.md: free degrees of freedom,
+   then slip particles.  Particles in contact with zero reaction: ZeroReaction.v.
 
    Page: spec/certificates.md, 5.1; spec/reduction.md.  Rust: crates/check/src/pencil.rs. *)
 
@@ -71,8 +72,21 @@ Record system := System {
   particles : seq slip_particle;
   unit_length : Z }.
 
+(* The rows a and b of the linear form (a + t b)'v. *)
+Definition linear_form := (sparse_row * sparse_row)%type.
+
+Notation no_form := ([::], [::]).
+
 (* Mu: the unknown is mu.  Lambda2 p q: the unknown is lambda^2, and mu = p/q. *)
 Inductive unknown := Mu | Lambda2 of Z & Z.
+
+(* A row of K or M as a row of the pencil: the table has for each degree of freedom the columns to
+   which it belongs, and the factors it gets. *)
+Definition table_row (table : seq sparse_row) (row : sparse_row) : sparse_row :=
+  flatten [seq [seq (c.1, (c.2 * e.2)%Z) | c <- nth [::] table e.1] | e <- row].
+
+Definition pencil_of_forms table order (forms : seq linear_form) free := Pencil order
+  [seq table_row table f.1 | f <- forms] [seq table_row table f.2 | f <- forms] free.
 
 Section Checker.
 
@@ -108,47 +122,45 @@ Definition column_table : seq (option (nat * Z)) :=
   mark (fun k => (k, unit_length s)) 0 (free_dofs s)
     (mark (along fst) 0 first_dofs (mark (along snd) 0 second_dofs [::])).
 
-Section Rows.
-
-Variable table : seq (option (nat * Z)).
-
-Definition columns (row : sparse_row) : sparse_row :=
-  pmap (fun e => omap (fun c => (c.1, c.2 * e.2)) (nth None table e.1)) row.
+(* The same as rows. *)
+Definition column_rows : seq sparse_row :=
+  [seq if c is Some entry then [:: entry] else [::] | c <- column_table].
 
 Definition multiple c (row : sparse_row) : sparse_row :=
   if c =? 0 then [::] else times_row c row.
-
-(* The rows of a matrix at both degrees of freedom of a particle, with these factors. *)
-Definition rows_along (rows : nat -> sparse_row) p (factors : planar) :=
-  multiple factors.1 (columns (rows (first_dof p))) ++
-  multiple factors.2 (columns (rows (second_dof p))).
 
 (* a t_p + b n_p *)
 Definition direction a b p : planar :=
   (a * (tangent p).1 + b * (normal p).1, a * (tangent p).2 + b * (normal p).2).
 
-Definition free_row_b d := if u is Lambda2 _ _ then columns (m_row d) else [::].
+(* The rows of a matrix at both degrees of freedom of a particle, with these factors. *)
+Definition at_both (rows : nat -> sparse_row) p (e : planar) : sparse_row :=
+  multiple e.1 (rows (first_dof p)) ++ multiple e.2 (rows (second_dof p)).
 
-Definition slip_row_a p :=
+(* w_d, and e'w at a particle *)
+Definition force_form d : linear_form := (k_row d, if u is Lambda2 _ _ then m_row d else [::]).
+
+Definition pressing_form (e : planar) p : linear_form :=
+  (at_both k_row p e, if u is Lambda2 _ _ then at_both m_row p e else [::]).
+
+(* S t'w + mu n'w, times the denominator of mu *)
+Definition cone_form p : linear_form :=
   match u with
-  | Mu => rows_along k_row p (direction (- sign_of p) 0 p)
-  | Lambda2 m q => rows_along k_row p (direction (- (q * sign_of p)) (- m) p)
+  | Mu => (at_both k_row p (direction (sign_of p) 0 p),
+           at_both k_row p (direction 0 1 p))
+  | Lambda2 m q => (at_both k_row p (direction (q * sign_of p) m p),
+                    at_both m_row p (direction (q * sign_of p) m p))
   end.
 
-Definition slip_row_b p :=
-  match u with
-  | Mu => rows_along k_row p (direction 0 (- (1)) p)
-  | Lambda2 m q => rows_along m_row p (direction (- (q * sign_of p)) (- m) p)
-  end.
+Definition negative (f : linear_form) : linear_form := (multiple (-1) f.1, multiple (-1) f.2).
 
-Definition pencil_by : pencil := Pencil (free_number + size (particles s))
-  ([seq columns (k_row d) | d <- free_dofs s] ++ [seq slip_row_a p | p <- particles s])
-  ([seq free_row_b d | d <- free_dofs s] ++ [seq slip_row_b p | p <- particles s])
-  (iota 0 free_number).
+(* The rows of the pencil, as forms of the motion. *)
+Definition system_forms : seq linear_form :=
+  [seq force_form d | d <- free_dofs s] ++ [seq negative (cone_form p) | p <- particles s].
 
-End Rows.
-
-Definition pencil_of : pencil := pencil_by column_table.
+Definition pencil_of : pencil :=
+  pencil_of_forms column_rows (free_number + size (particles s)) system_forms
+    (iota 0 free_number).
 
 Definition columns_in_range (rows : seq sparse_row) :=
   all (fun row => all (fun e => e.1 < dofs s)%N row) rows.
@@ -178,6 +190,74 @@ Definition check_system_claim k := system_wellformed && check_claim pencil_of k.
 Definition check_system_enclosed k := system_wellformed && check_enclosed_claim pencil_of k.
 
 End Checker.
+
+Section Forms.
+
+Variable R : rcfType.
+Implicit Types (t : R) (x : nat -> R).
+
+Definition lambda2_of u t := if u is Lambda2 _ _ then t else 0.
+Definition mu_of u t := if u is Lambda2 m q then toR m / toR q else t.
+
+(* The positive number by which a slip row is multiplied. *)
+Definition row_factor u : R := if u is Lambda2 _ q then toR q else 1.
+
+Definition row_value (row : sparse_row) x : R := \sum_(e <- row) toR e.2 * x e.1.
+
+Definition form_value (f : linear_form) t x := row_value f.1 x + t * row_value f.2 x.
+
+Lemma row_value_nil x : row_value [::] x = 0.
+Proof. exact: big_nil. Qed.
+
+Lemma row_value_cat a b x : row_value (a ++ b) x = row_value a x + row_value b x.
+Proof. exact: big_cat. Qed.
+
+Lemma row_value_multiple c row x : row_value (multiple c row) x = toR c * row_value row x.
+Proof.
+rewrite /multiple; case: Z.eqb_spec => [->|_]; first by rewrite toR0 mul0r row_value_nil.
+rewrite /row_value big_map mulr_sumr; apply: eq_bigr => e _ /=.
+by rewrite toRM mulrA.
+Qed.
+
+Lemma value_negative f t x : form_value (negative f) t x = - form_value f t x.
+Proof.
+rewrite /form_value /= !row_value_multiple -[(-1)%Z]/(Z.opp 1) toRN toR1 !mulN1r.
+by rewrite mulrN opprD.
+Qed.
+
+Lemma form_value_same f t x x' : (forall d, x d = x' d) -> form_value f t x = form_value f t x'.
+Proof.
+by move=> same; rewrite /form_value /row_value; congr (_ + _ * _); apply: eq_bigr => e _;
+  rewrite same.
+Qed.
+
+(* The rows of the pencil are the forms at the motion of x. *)
+Variables (table : seq sparse_row) (n : nat) (forms : seq linear_form) (fr : seq nat).
+Hypothesis small : forall d c, c \in nth [::] table d -> (c.1 < n)%N.
+
+Definition table_motion x d := row_value (nth [::] table d) x.
+
+Lemma row_value_table row x : row_value (table_row table row) x = row_value row (table_motion x).
+Proof.
+elim: row => [|e row IH]; first by rewrite !row_value_nil.
+rewrite /table_row /= row_value_cat -/(table_row _ _) IH [RHS]/row_value big_cons; congr (_ + _).
+rewrite /row_value big_map /table_motion /row_value mulr_sumr; apply: eq_bigr => c _ /=.
+by rewrite toRM; move: (toR _) (toR _) (x _) => *; ring.
+Qed.
+
+Lemma table_row_range row : all (fun e => e.1 < n)%N (table_row table row).
+Proof. by apply/allP=> e /flatten_mapP[e' _ /mapP[c /small lt_c ->]]. Qed.
+
+Lemma form_reaction t x i : (i < size forms)%N ->
+  reaction (pencil_of_forms table n forms fr) t x i =
+  form_value (nth no_form forms i) t (table_motion x).
+Proof.
+move=> lt_i; rewrite /reaction /a_entry /b_entry /row_a /row_b /= !(nth_map no_form) //.
+under eq_bigr do rewrite mulrDl -mulrA; rewrite big_split /= -mulr_sumr.
+by rewrite !sum_lookup ?table_row_range // -!/(row_value _ _) !row_value_table.
+Qed.
+
+End Forms.
 
 Section Sound.
 
@@ -223,9 +303,6 @@ Definition satisfies_9 t v :=
             | Lambda2 m q => conditions_9 t (toR m / toR q) v
             end.
 
-Definition lambda2_of (t : R) := if u is Lambda2 _ _ then t else 0.
-Definition mu_of (t : R) := if u is Lambda2 m q then toR m / toR q else t.
-
 (* The slip particles that slip after the event (support), those at the border of the friction
    cone without slip (biactive), and the others; numbers of the pencil's variables. *)
 Definition has_support (support biactive : seq nat) t v := forall j, (j < ns)%N ->
@@ -233,9 +310,9 @@ Definition has_support (support biactive : seq nat) t v := forall j, (j < ns)%N 
   [/\ (nf + j)%N \in support -> slip_rate v p < 0,
       (nf + j)%N \notin support -> slip_rate v p = 0,
       (nf + j)%N \notin support -> (nf + j)%N \in biactive ->
-        cone (lambda2_of t) (mu_of t) v p = 0 &
+        cone (lambda2_of u t) (mu_of u t) v p = 0 &
       (nf + j)%N \notin support -> (nf + j)%N \notin biactive ->
-        cone (lambda2_of t) (mu_of t) v p < 0].
+        cone (lambda2_of u t) (mu_of u t) v p < 0].
 
 (* (10) *)
 Definition motion (x : nat -> R) d :=
@@ -317,23 +394,19 @@ Qed.
 Lemma nth_column_table d : nth None table d = column s d.
 Proof. by rewrite !nth_mark nth_nil !add0n. Qed.
 
-Lemma columns_in_pencil row : all (fun e => e.1 < nf + ns)%N (columns table row).
+Lemma column_rowsE d :
+  nth [::] (column_rows s) d = if column s d is Some c then [:: c] else [::].
 Proof.
-elim: row => //= e row; rewrite /columns /= nth_column_table.
-case col: (column s e.1) => [[j c]|] //= ->.
-by rewrite (column_in_range col).
+rewrite -nth_column_table; have [lt_d|ge_d] := ltnP d (size (column_table s)).
+  by rewrite (nth_map None).
+by rewrite !nth_default ?size_map.
 Qed.
 
-(* A row of K or M on the motion of x is its row of columns on x. *)
-Lemma row_motion row x : all (fun e => e.1 < dofs s)%N row ->
-  \sum_(j <- variables) toR (lookup (columns table row) j) * x j =
-  \sum_(d <- all_dofs) toR (lookup row d) * motion x d.
+Lemma table_motionE x d : table_motion (column_rows s) x d = motion x d.
 Proof.
-move=> range; rewrite (sum_lookup _ range) (sum_lookup _ (columns_in_pencil row)).
-elim: row {range} => [|e row IH]; first by rewrite !big_nil.
-rewrite big_cons -IH /columns /= nth_column_table /motion; case: (column s e.1) => [[j c]|] /=.
-  by rewrite big_cons /= toRM mulrA [toR c * _]mulrC.
-by rewrite mulr0 add0r.
+rewrite /table_motion column_rowsE /motion; case: (column s d) => [[j c]|].
+  by rewrite /row_value big_seq1.
+exact: row_value_nil.
 Qed.
 
 Lemma lookup_multiple c row j :
@@ -343,94 +416,89 @@ rewrite /multiple; case: Z.eqb_spec => [->|_]; first by rewrite toR0 mul0r.
 by rewrite lookup_times toRM.
 Qed.
 
-(* Products of rows of K and M with v. *)
-Definition k_product (v : nat -> R) d := \sum_(j <- all_dofs) k_entry d j * v j.
-Definition m_product (v : nat -> R) d := \sum_(j <- all_dofs) m_entry d j * v j.
-
-Lemma forceE lambda2 v d : force lambda2 v d = k_product v d + lambda2 * m_product v d.
+Lemma forceE lambda2 v d : force lambda2 v d =
+  \sum_(j <- all_dofs) k_entry d j * v j + lambda2 * \sum_(j <- all_dofs) m_entry d j * v j.
 Proof.
-rewrite /force /k_product /m_product mulr_sumr -big_split /=; apply: eq_bigr => j _.
+rewrite /force mulr_sumr -big_split /=; apply: eq_bigr => j _.
 by rewrite mulrDl mulrA.
 Qed.
 
-Lemma k_product_columns x d :
-  \sum_(j <- variables) toR (lookup (columns table (k_row s d)) j) * x j = k_product (motion x) d.
-Proof. by rewrite row_motion //; case: (rows_in_range d). Qed.
-
-Lemma m_product_columns x d :
-  \sum_(j <- variables) toR (lookup (columns table (m_row s d)) j) * x j = m_product (motion x) d.
-Proof. by rewrite row_motion //; case: (rows_in_range d). Qed.
-
-(* y_i in terms of both rows. *)
-Lemma reactionE t x i : reaction Q t x i =
-  \sum_(j <- variables) toR (lookup (row_a Q i) j) * x j +
-  t * \sum_(j <- variables) toR (lookup (row_b Q i) j) * x j.
-Proof.
-rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
-by rewrite mulrDl mulrA.
-Qed.
-
-(* The positive number by which a slip row was multiplied. *)
-Definition row_factor : R := if u is Lambda2 _ q then toR q else 1.
-
-Lemma row_factor_gt0 : 0 < row_factor.
+Lemma row_factor_gt0 : 0 < row_factor R u.
 Proof.
 case/and5P: wf => _ _ _ _ /andP[_]; rewrite /row_factor.
 by case: (u) => [_|m q]; [exact: ltr01 | rewrite toR_gt0].
 Qed.
 
-Lemma free_reaction t x k : (k < nf)%N ->
-  reaction Q t x k = force (lambda2_of t) (motion x) (nth 0%N (free_dofs s) k).
+Lemma row_value_both rows p e x : row_value (at_both rows p e) x =
+  along e p (fun d => row_value (rows d) x).
+Proof. by rewrite row_value_cat !row_value_multiple. Qed.
+
+Lemma force_rows lambda2 x d : force lambda2 x d =
+  row_value (k_row s d) x + lambda2 * row_value (m_row s d) x.
 Proof.
-move=> lt_k; rewrite reactionE forceE /row_a /row_b /= !nth_cat !size_map lt_k.
-rewrite !(nth_map 0%N) // k_product_columns; congr (_ + _).
-rewrite /free_row_b /lambda2_of; case: (u) => [|m q].
-  by rewrite mul0r sum_zero ?mulr0 // => j _; rewrite toR0 mul0r.
-by rewrite m_product_columns.
+have [k m] := rows_in_range d.
+by rewrite forceE /k_entry /m_entry !sum_lookup.
 Qed.
 
-Lemma sum_multiple c row (x : nat -> R) :
-  \sum_(j <- variables) toR (lookup (multiple c row) j) * x j =
-  toR c * \sum_(j <- variables) toR (lookup row j) * x j.
-Proof. by rewrite mulr_sumr; apply: eq_bigr => j _; rewrite lookup_multiple mulrA. Qed.
+Lemma value_force u' d t x : form_value (force_form s u' d) t x = force (lambda2_of u' t) x d.
+Proof.
+rewrite force_rows /form_value /force_form /lambda2_of; case: u' => [|m q] //=.
+by rewrite row_value_nil mulr0 mul0r.
+Qed.
 
-Lemma sum_cat row1 row2 (x : nat -> R) :
-  \sum_(j <- variables) toR (lookup (row1 ++ row2) j) * x j =
-  \sum_(j <- variables) toR (lookup row1 j) * x j + \sum_(j <- variables) toR (lookup row2 j) * x j.
-Proof. by rewrite -big_split; apply: eq_bigr => j _; rewrite lookup_cat toRD mulrDl. Qed.
+Lemma value_pressing u' e p t x :
+  form_value (pressing_form s u' e p) t x = along e p (force (lambda2_of u' t) x).
+Proof.
+rewrite /along !force_rows /form_value /pressing_form /lambda2_of; case: u' => [|m q] /=.
+  by rewrite row_value_nil row_value_both /along mulr0 !mul0r !addr0.
+rewrite !row_value_both /along.
+by move: (toR _) (toR _) (row_value _ _) (row_value _ _) => *; ring.
+Qed.
 
-Notation row_times row x := (\sum_(j <- variables) toR (lookup row j) * x j).
+(* q S t'w + m n'w *)
+Lemma value_cone_parts m q p t x : form_value (cone_form s (Lambda2 m q) p) t x =
+  toR q * (toR (sign_of p) * along (tangent p) p (force t x)) +
+  toR m * along (normal p) p (force t x).
+Proof.
+rewrite /along !force_rows /form_value /= !row_value_both /along /direction !toRD !toRM /=.
+move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+by move: (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
+Qed.
 
-Lemma sum_rows_along rows p factors (x : nat -> R) :
-  row_times (rows_along table rows p factors) x =
-  toR factors.1 * row_times (columns table (rows (first_dof p))) x +
-  toR factors.2 * row_times (columns table (rows (second_dof p))) x.
-Proof. by rewrite sum_cat !sum_multiple. Qed.
+Lemma value_cone p t x : form_value (cone_form s u p) t x =
+  row_factor R u * cone (lambda2_of u t) (mu_of u t) x p.
+Proof.
+have := row_factor_gt0; rewrite /row_factor /cone /lambda2_of /mu_of.
+case: (u) => [|m q] f0; last first.
+  have q0 : toR q != 0 :> R by rewrite gt_eqF.
+  by rewrite value_cone_parts; move: (along _ _ _) (along _ _ _) => *; field.
+rewrite mul1r /along !force_rows /form_value /= !row_value_both /along /direction !toRD !toRM.
+rewrite toR0 toR1 /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
+Qed.
 
-Lemma directionE a b p :
-  toR (direction a b p).1 = toR a * toR (tangent p).1 + toR b * toR (normal p).1 :> R /\
-  toR (direction a b p).2 = toR a * toR (tangent p).2 + toR b * toR (normal p).2 :> R.
-Proof. by rewrite /direction !toRD !toRM. Qed.
+Lemma system_form_reaction t x i : (i < nf + ns)%N ->
+  reaction Q t x i = form_value (nth no_form (system_forms s u) i) t (motion x).
+Proof.
+move=> lt_i; rewrite -(form_value_same _ _ (table_motionE x)) form_reaction //; last first.
+  by rewrite size_cat !size_map.
+move=> d c; rewrite column_rowsE; case col: (column s d) => [[j f]|] //; rewrite inE => /eqP->.
+exact: column_in_range col.
+Qed.
+
+Lemma free_reaction t x k : (k < nf)%N ->
+  reaction Q t x k = force (lambda2_of u t) (motion x) (nth 0%N (free_dofs s) k).
+Proof.
+move=> lt_k; rewrite system_form_reaction ?ltn_addr // nth_cat size_map lt_k.
+by rewrite (nth_map 0%N) // value_force.
+Qed.
 
 Lemma slip_reaction t x j : (j < ns)%N ->
   reaction Q t x (nf + j)%N =
-  - (row_factor * cone (lambda2_of t) (mu_of t) (motion x) (particle s j)).
+  - (row_factor R u * cone (lambda2_of u t) (mu_of u t) (motion x) (particle s j)).
 Proof.
-move=> lt_j; rewrite reactionE /cone /along !forceE /row_a /row_b /= !nth_cat !size_map.
-rewrite ltnNge leq_addr /= addKn !(nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) //.
-rewrite -/(particle s j); set p := particle s j.
-rewrite /slip_row_a /slip_row_b /lambda2_of /mu_of.
-have := row_factor_gt0; rewrite /row_factor; case: (u) => [_|m q q0]; rewrite !sum_rows_along.
-  have [-> ->] := directionE (- sign_of p) 0 p; have [-> ->] := directionE 0 (- (1)) p.
-  rewrite !k_product_columns !toRN toR0 toR1.
-  move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) => k1 k2 m1 m2.
-  by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
-have [-> ->] := directionE (- (q * sign_of p)) (- m) p.
-rewrite !k_product_columns !m_product_columns !toRN !toRM.
-move: (k_product _ _) (k_product _ _) (m_product _ _) (m_product _ _) => k1 k2 m1 m2.
-move: (toR (sign_of p)) (toR (tangent p).1) (toR (tangent p).2) => sg t1 t2.
-move: (toR (normal p).1) (toR (normal p).2) => n1 n2.
-by field; exact: lt0r_neq0.
+move=> lt_j; rewrite system_form_reaction ?ltn_add2l // nth_cat size_map ltnNge leq_addr /= addKn.
+by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) // value_negative value_cone.
 Qed.
 
 Lemma free_variable i : (i \in free Q) = (i < nf)%N.
@@ -524,7 +592,7 @@ by rewrite mem_iota add0n; apply: column_in_range col.
 Qed.
 
 Lemma satisfies_9E t v :
-  satisfies_9 t v <-> 0 <= t /\ conditions_9 (lambda2_of t) (mu_of t) v.
+  satisfies_9 t v <-> 0 <= t /\ conditions_9 (lambda2_of u t) (mu_of u t) v.
 Proof. by rewrite /satisfies_9 /lambda2_of /mu_of; case: (u). Qed.
 
 Theorem system_pencil t x : solution Q t x <-> satisfies_9 t (motion x).
@@ -549,7 +617,7 @@ split=> //; first exact/motion_nonzero.
 move=> i /slip_variable[j lt_j ->]; have := rows_s _ lt_j.
 rewrite slip_reaction //= slip_motion // oppr_le0 pmulr_rge0 // => -[_ x0 y0 xy]; split=> //.
   by rewrite oppr_ge0 pmulr_rle0.
-apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -(mulr0 row_factor) -xy.
+apply: (mulfI (lt0r_neq0 l2)); rewrite mulr0 -(mulr0 (row_factor R u)) -xy.
 by move: (cone _ _ _ _) (x _) (toR _) => *; ring.
 Qed.
 

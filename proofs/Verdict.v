@@ -15,7 +15,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil.
 From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
-From Mceip Require Import Lifted ZeroReaction Forms PlainMcp Varying Covers ZeroPencil ZeroEnclosed.
+From Mceip Require Import Lifted ZeroReaction PlainMcp Varying Covers ZeroPencil ZeroEnclosed.
 From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import Points Rational Statement Integral Equilibrium Unique.
 

@@ -32,7 +32,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs.
-From Mceip Require Import Support System Families Varying Covers ZeroReaction Forms.
+From Mceip Require Import Support System Families Varying Covers ZeroReaction.
 From Mceip Require Import ZeroPencil ZeroEnclosed.
 
 Set Implicit Arguments.

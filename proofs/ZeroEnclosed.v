@@ -19,7 +19,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Bounded Pencil EnclosedClaim System ZeroReaction.
-From Mceip Require Import Forms ZeroPencil.
+From Mceip Require Import ZeroPencil.
 
 Set Implicit Arguments.
 Unset Strict Implicit.

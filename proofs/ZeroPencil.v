@@ -35,7 +35,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
 From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System.
-From Mceip Require Import ZeroReaction Forms.
+From Mceip Require Import ZeroReaction.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -45,8 +45,6 @@ Import Order.Theory GRing.Theory Num.Theory.
 
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
-
-Notation no_form := ([::], [::]).
 
 Section Checker.
 
@@ -82,9 +80,6 @@ Definition zero_columns d : sparse_row :=
 
 Definition zero_table := [seq zero_columns d | d <- iota 0 (dofs s)].
 
-Definition zero_row (table : seq sparse_row) (row : sparse_row) : sparse_row :=
-  flatten [seq [seq (c.1, c.2 * e.2) | c <- nth [::] table e.1] | e <- row].
-
 (* The factor by which the rows with mu are multiplied. *)
 Definition row_multiple := if u is Lambda2 _ q then q else 1.
 
@@ -92,21 +87,18 @@ Definition scaled_normal p : planar :=
   (row_multiple * (unit_normal p).1, row_multiple * (unit_normal p).2).
 
 (* The rows of gap, right and left, as forms of the motion. *)
-Definition zero_forms j : seq form :=
+Definition zero_forms j : seq linear_form :=
   let p := zero_particle z j in
-  [:: negative (pressing_form z u (scaled_normal p) p);
-      negative (cone_form z u (with_sign (-1) p)); negative (cone_form z u (with_sign 1 p))].
+  [:: negative (pressing_form s u (scaled_normal p) p);
+      negative (cone_form s u (with_sign (-1) p)); negative (cone_form s u (with_sign 1 p))].
 
-Definition variable_forms : seq form :=
-  [seq force_form z u d | d <- free_dofs s] ++
-  [seq negative (cone_form z u p) | p <- particles s] ++
+Definition variable_forms : seq linear_form :=
+  [seq force_form s u d | d <- free_dofs s] ++
+  [seq negative (cone_form s u p) | p <- particles s] ++
   flatten [seq zero_forms j | j <- iota 0 nz].
 
-Definition pencil_by_table table := Pencil (free_number s + ns + 3 * nz)
-  [seq zero_row table f.1 | f <- variable_forms] [seq zero_row table f.2 | f <- variable_forms]
+Definition zero_pencil := pencil_of_forms zero_table (free_number s + ns + 3 * nz) variable_forms
   (iota 0 (free_number s)).
-
-Definition zero_pencil := pencil_by_table zero_table.
 
 End Checker.
 
@@ -157,6 +149,89 @@ have -> : (3 * j.+1 + k = 3 + (3 * j + k))%N by rewrite mulnS addnA.
 by rewrite ltnNge leq_addr /= addKn IH // addSnnS.
 Qed.
 
+Section Particles.
+
+Variables (R : rcfType) (z : zero_system) (u : unknown).
+Hypothesis wf : zero_wellformed z u.
+
+Implicit Types (t : R) (v x : nat -> R).
+
+Notation s := (without_zero z).
+Notation ns := (size (particles s)).
+Notation nz := (size (zero_particles z)).
+Notation all_dofs := (iota 0 (dofs s)).
+
+Lemma wf_system : system_wellformed s u.
+Proof. by case/and4P: wf. Qed.
+
+Section Sides.
+
+Variables (t : R) (x : nat -> R) (j : nat).
+
+Notation p := (zero_particle z j).
+Notation w := (force s (lambda2_of u t) x).
+Notation mu := (mu_of u t : R).
+Notation w_N := (along (normal p) p w).
+Notation w_T := (along (tangent p) p w).
+
+Lemma value_right : form_value (cone_form s u (with_sign (-1) p)) t x =
+  row_factor R u * (- w_T + mu * w_N).
+Proof. by rewrite (value_cone wf_system) /cone -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r. Qed.
+
+Lemma value_left : form_value (cone_form s u (with_sign 1 p)) t x =
+  row_factor R u * (w_T + mu * w_N).
+Proof. by rewrite (value_cone wf_system) /cone toR1 mul1r. Qed.
+
+End Sides.
+
+(* The degrees of freedom of the particles. *)
+Lemma slip_dofs j : (j < ns)%N ->
+  first_dof (particle s j) \in all_dofs /\ second_dof (particle s j) \in all_dofs.
+Proof.
+by move=> lt_j; rewrite (first_dof_in wf_system lt_j) (second_dof_in wf_system lt_j).
+Qed.
+
+Lemma zero_particle_dofs j : (j < nz)%N ->
+  first_dof (zero_particle z j) \in all_dofs /\ second_dof (zero_particle z j) \in all_dofs.
+Proof.
+have /and4P[_ _ in_range _] := wf => lt_j.
+have /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z)/(_ _ lt_j) := in_range.
+by rewrite !mem_iota => /andP[].
+Qed.
+
+(* (9) and the support speak of degrees of freedom only. *)
+Section Extension.
+
+Variables (v v' : nat -> R).
+Hypothesis same : forall d, d \in all_dofs -> v d = v' d.
+
+Lemma force_same lambda2 d : force s lambda2 v d = force s lambda2 v' d.
+Proof. by apply: sum_eq => j Hj; rewrite same. Qed.
+
+Lemma along_same e p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
+  along e p v = along e p v'.
+Proof. by move=> first second; rewrite /along !same. Qed.
+
+Lemma along_force_same e p lambda2 :
+  along e p (force s lambda2 v) = along e p (force s lambda2 v').
+Proof. by rewrite /along !force_same. Qed.
+
+Lemma conditions_9z_same lambda2 mu : conditions_9z z lambda2 mu v -> conditions_9z z lambda2 mu v'.
+Proof.
+case=> [[d d_in vd] at_rest free slip zero]; split.
+- by exists d; rewrite -?same.
+- by move=> d' d'_in out; rewrite -same // at_rest.
+- by move=> d' /free; rewrite force_same.
+- move=> j lt_j; have [first second] := slip_dofs lt_j; have := slip _ lt_j.
+  by rewrite /= /cone /slip_rate !along_force_same !(along_same _ first second).
+move=> j lt_j; have [first second] := zero_particle_dofs lt_j; have := zero _ lt_j.
+by rewrite /= !along_force_same !(along_same _ first second).
+Qed.
+
+End Extension.
+
+End Particles.
+
 Section Real.
 
 Variables (R : rcfType) (z : zero_system) (u : unknown).
@@ -174,16 +249,7 @@ Notation L := (toR (unit_length s) : R).
 Let wf_s : system_wellformed s u := wf_system wf.
 
 (* The motion of x. *)
-Definition zero_motion x d := row_value (nth [::] (zero_table z) d) x.
-
-Lemma row_value_zero_row row x :
-  row_value (zero_row (zero_table z) row) x = row_value row (zero_motion x).
-Proof.
-elim: row => [|e row IH]; first by rewrite !row_value_nil.
-rewrite /zero_row /= row_value_cat -/(zero_row _ _) IH [RHS]/row_value big_cons; congr (_ + _).
-rewrite /row_value big_map /zero_motion /row_value mulr_sumr; apply: eq_bigr => c _ /=.
-by rewrite toRM; move: (toR _) (toR _) (x _) => *; ring.
-Qed.
+Definition zero_motion x d := table_motion (zero_table z) x d.
 
 Lemma size_forms u' : size (variable_forms z u') = (nf + ns + 3 * nz)%N.
 Proof.
@@ -248,10 +314,9 @@ case col: (column s d) => [[j f]|] //; rewrite inE => /eqP-> /=.
 exact: leq_trans (column_in_range col) (leq_addr _ _).
 Qed.
 
-Lemma zero_row_range row : all (fun e => e.1 < nf + ns + 3 * nz)%N (zero_row (zero_table z) row).
+Lemma table_small d c : c \in nth [::] (zero_table z) d -> (c.1 < nf + ns + 3 * nz)%N.
 Proof.
-apply/allP=> e /flatten_mapP[e' _ /mapP[c c_in ->]] /=; move: c_in.
-have [d_in|d_out] := boolP (e'.1 \in all_dofs); first by rewrite nth_table //; apply: columns_small.
+have [d_in|d_out] := boolP (d \in all_dofs); first by rewrite nth_table //; apply: columns_small.
 by rewrite nth_default // size_map size_iota leqNgt; move: d_out; rewrite mem_iota.
 Qed.
 
@@ -259,24 +324,13 @@ Qed.
 Lemma zero_reaction_form u' t x i : (i < nf + ns + 3 * nz)%N ->
   reaction (zero_pencil z u') t x i =
   form_value (nth no_form (variable_forms z u') i) t (zero_motion x).
-Proof.
-set Q' := zero_pencil z u'; set forms := variable_forms z u' => lt_i.
-have lt_f : (i < size forms)%N by rewrite size_forms.
-transitivity (\sum_(j <- iota 0 (order Q')) toR (lookup (row_a Q' i) j) * x j +
-              t * \sum_(j <- iota 0 (order Q')) toR (lookup (row_b Q' i) j) * x j).
-  rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
-  by rewrite /a_entry /b_entry mulrDl mulrA.
-have ra : row_a Q' i = zero_row (zero_table z) (nth no_form forms i).1.
-  by rewrite /row_a /= (nth_map no_form).
-have rb : row_b Q' i = zero_row (zero_table z) (nth no_form forms i).2.
-  by rewrite /row_b /= (nth_map no_form).
-by rewrite ra rb !sum_lookup ?zero_row_range // -!/(row_value _ _) !row_value_zero_row.
-Qed.
+Proof. by move=> lt_i; apply: form_reaction; [apply: table_small | rewrite size_forms]. Qed.
 
 (* The motion at each degree of freedom. *)
 Lemma zero_motion_moving x d : d \in moving_dofs s -> zero_motion x d = motion s x d.
 Proof.
-move=> d_in; rewrite /zero_motion nth_table ?(moving_dof_in wf_s) // columns_moving // /motion.
+move=> d_in; rewrite /zero_motion /table_motion nth_table ?(moving_dof_in wf_s) //.
+rewrite columns_moving // /motion.
 case: (column s d) => [[j c]|]; last by rewrite row_value_nil.
 by rewrite /row_value big_seq1.
 Qed.
@@ -288,7 +342,7 @@ Lemma along_three e p j x : first_dof p \in all_dofs -> second_dof p \in all_dof
   - (toR e.1 * toR (unit_normal p).1 + toR e.2 * toR (unit_normal p).2) * x (gap z j) +
   (toR e.1 * toR (tangent p).1 + toR e.2 * toR (tangent p).2) * (x (right z j) - x (left z j)).
 Proof.
-move=> first second c1 c2; rewrite /along /zero_motion !nth_table // c1 c2.
+move=> first second c1 c2; rewrite /along /zero_motion /table_motion !nth_table // c1 c2.
 rewrite /row_value !big_cons !big_nil /= !toRN.
 move: (x _) (x _) (x _) (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
 Qed.
@@ -306,7 +360,7 @@ Lemma zero_motion_rest x d : d \in all_dofs -> d \notin moving_with_zero z -> ze
 Proof.
 move=> d_in; rewrite /moving_with_zero mem_cat negb_or => /andP[out].
 rewrite /zero_dofs mem_cat negb_or => /andP[out1 out2].
-rewrite /zero_motion nth_table // /zero_columns (negbTE out1) (negbTE out2).
+rewrite /zero_motion /table_motion nth_table // /zero_columns (negbTE out1) (negbTE out2).
 move: out; rewrite !mem_cat !negb_or => /and3P[/negbTE out_f /negbTE out_1 /negbTE out_2].
 by rewrite /column out_f out_1 out_2 row_value_nil.
 Qed.
@@ -429,7 +483,7 @@ by rewrite nth_cat size_map lt_k (nth_map 0%N) // (value_force wf_s).
 Qed.
 
 Lemma nth_slip_form u' j : (j < ns)%N ->
-  nth no_form (variable_forms z u') (nf + j) = negative (cone_form z u' (particle s j)).
+  nth no_form (variable_forms z u') (nf + j) = negative (cone_form s u' (particle s j)).
 Proof.
 move=> lt_j; rewrite nth_cat size_map ltnNge leq_addr /= addKn nth_cat size_map lt_j.
 by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z).
@@ -500,7 +554,7 @@ Lemma zero_parts m q lambda2 x j : (j < nz)%N -> let p := zero_particle z j in
       reaction Q' lambda2 x (left z j) = - (toR q * w_T) - toR m * w_N].
 Proof.
 move=> lt_j p w_T w_N Q'.
-have half S : form_value (cone_form z (Lambda2 m q) (with_sign S p)) lambda2 (zero_motion x) =
+have half S : form_value (cone_form s (Lambda2 m q) (with_sign S p)) lambda2 (zero_motion x) =
     toR q * (toR S * w_T) + toR m * w_N by exact: (value_cone_parts wf_s).
 split.
 - rewrite -[gap z j]addn0 zero_row_form //= value_negative (value_pressing wf_s) /along !toRM.
@@ -640,7 +694,7 @@ have [d_zero|d_other] := boolP (d \in zero_dofs z).
     have [gapE rightE leftE] := variables_at v lt_j.
     have [tt nn nt _] := frame_parts lt_j.
     have [v1 v2] := plane (v (first_dof p)) (v (second_dof p)) L2_gt0 tt nn nt.
-    rewrite /zero_motion !nth_table // columns_first // columns_second // -/p.
+    rewrite /zero_motion /table_motion !nth_table // columns_first // columns_second // -/p.
     rewrite /row_value !big_cons !big_nil /= gapE rightE leftE -/p !addr0 !toRN.
     have parts (c : R) (a : R) : c * (if 0 < a then a else 0) +
         - c * (if a < 0 then - a else 0) = c * a.
@@ -747,7 +801,7 @@ have sat_x : conditions_9z z lambda2 mu (zero_motion x).
   by apply: (conditions_9z_same wf _ sat) => d d_in; rewrite same.
 have l2 := L2_gt0; have [[d d_in vd] _ free slips zeros] := sat_x; split.
 - have : has (fun i => x i != 0) (iota 0 (order Q)).
-    apply: contraNT vd => /hasPn none; rewrite /zero_motion nth_table //.
+    apply: contraNT vd => /hasPn none; rewrite /zero_motion /table_motion nth_table //.
     rewrite /row_value big_seq big1 // => c c_in.
     have : (c.1 < nf + ns + 3 * nz)%N by apply: columns_small c_in.
     move=> small; have := none c.1; rewrite mem_iota small negbK => /(_ isT)/eqP->.
@@ -928,7 +982,8 @@ Qed.
 Lemma zero_motion_scaled x x' f : (forall i, (i < nf + ns + 3 * nz)%N -> x' i = f * x i) ->
   forall d, d \in all_dofs -> zero_motion x' d = f * zero_motion x d.
 Proof.
-move=> scaled d d_in; rewrite /zero_motion nth_table // /row_value mulr_sumr big_seq [RHS]big_seq.
+move=> scaled d d_in; rewrite /zero_motion /table_motion nth_table // /row_value mulr_sumr.
+rewrite big_seq [RHS]big_seq.
 by apply: eq_bigr => c c_in; rewrite scaled ?(columns_small c_in) // mulrCA.
 Qed.
 

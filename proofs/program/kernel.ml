@@ -1825,13 +1825,13 @@ let condensed_radius d w norms_l norms_r =
 (** val condensed : blocks -> elimination -> enclosed **)
 
 let condensed d w =
-  let columns0 = fun g x ->
+  let columns = fun g x ->
     map0 (fun j -> residual_column d w g x j) (iota 0 d.slip_count)
   in
-  let r = columns0 d.fs w.right_w in
+  let r = columns d.fs w.right_w in
   let norms_r = map0 norm1 r in
-  let norms_a = map0 norm1 (columns0 d.sf_a w.left_va) in
-  let norms_b = map0 norm1 (columns0 d.sf_b w.left_vb) in
+  let norms_a = map0 norm1 (columns d.sf_a w.left_va) in
+  let norms_b = map0 norm1 (columns d.sf_b w.left_vb) in
   { size_of = d.slip_count; center_a =
   (condensed_center d w d.ss_a d.sf_a w.left_va r); center_b =
   (condensed_center d w d.ss_b d.sf_b w.left_vb r); radius_a =
@@ -1912,15 +1912,15 @@ let restrict place0 row =
 
 (** val blocks_by : pencil -> int option list -> int list -> blocks **)
 
-let blocks_by q place0 columns0 =
+let blocks_by q place0 columns =
   let lookups = fun row l -> map0 (fun j -> lookup row j) l in
-  { free_count = (size q.free); slip_count = (size columns0); ff =
+  { free_count = (size q.free); slip_count = (size columns); ff =
   (map0 (fun i -> restrict place0 (row_a q i)) q.free); fs =
-  (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns0);
-  sf_a = (map0 (fun i -> lookups (row_a q i) q.free) columns0); sf_b =
-  (map0 (fun i -> lookups (row_b q i) q.free) columns0); ss_a =
-  (map0 (fun i -> lookups (row_a q i) columns0) columns0); ss_b =
-  (map0 (fun i -> lookups (row_b q i) columns0) columns0) }
+  (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns);
+  sf_a = (map0 (fun i -> lookups (row_a q i) q.free) columns); sf_b =
+  (map0 (fun i -> lookups (row_b q i) q.free) columns); ss_a =
+  (map0 (fun i -> lookups (row_a q i) columns) columns); ss_b =
+  (map0 (fun i -> lookups (row_b q i) columns) columns) }
 
 (** val blocks_of : pencil -> blocks **)
 
@@ -1947,11 +1947,11 @@ let weighted weight i row =
 (** val may_move : pencil -> region -> int list **)
 
 let may_move q r =
-  let columns0 = slip q in
+  let columns = slip q in
   cat q.free
-    (map0 (fun j -> nth 0 columns0 j)
+    (map0 (fun j -> nth 0 columns j)
       (filter (fun j -> negb (is_resting (state_of r j)))
-        (iota 0 (size columns0))))
+        (iota 0 (size columns))))
 
 (** val members :
     pencil -> Big_int_Z.big_int list -> region -> member list **)
@@ -2648,9 +2648,27 @@ type system = { dofs : int; stiffness : sparse_row list;
                 particles : slip_particle list;
                 unit_length : Big_int_Z.big_int }
 
+type linear_form = sparse_row * sparse_row
+
 type unknown =
 | Mu
 | Lambda2 of Big_int_Z.big_int * Big_int_Z.big_int
+
+(** val table_row : sparse_row list -> sparse_row -> sparse_row **)
+
+let table_row table0 row =
+  flatten
+    (map0 (fun e ->
+      map0 (fun c -> ((fst c), (Big_int_Z.mult_big_int (snd c) (snd e))))
+        (nth [] table0 (fst e))) row)
+
+(** val pencil_of_forms :
+    sparse_row list -> int -> linear_form list -> int list -> pencil **)
+
+let pencil_of_forms table0 order0 forms free0 =
+  { order = order0; rows_a =
+    (map0 (fun f -> table_row table0 (fst f)) forms); rows_b =
+    (map0 (fun f -> table_row table0 (snd f)) forms); free = free0 }
 
 (** val free_number : system -> int **)
 
@@ -2722,13 +2740,12 @@ let column_table s =
     (mark (along fst) 0 (first_dofs s)
       (mark (along snd) 0 (second_dofs s) []))
 
-(** val columns :
-    (int * Big_int_Z.big_int) option list -> sparse_row -> sparse_row **)
+(** val column_rows : system -> sparse_row list **)
 
-let columns table0 row =
-  pmap (fun e ->
-    Option.map (fun c -> ((fst c), (Big_int_Z.mult_big_int (snd c) (snd e))))
-      (nth None table0 (fst e))) row
+let column_rows s =
+  map0 (fun c -> match c with
+                 | Some entry0 -> entry0 :: []
+                 | None -> []) (column_table s)
 
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
@@ -2736,14 +2753,6 @@ let multiple c row =
   if Big_int_Z.eq_big_int c Big_int_Z.zero_big_int
   then []
   else times_row c row
-
-(** val rows_along :
-    (int * Big_int_Z.big_int) option list -> (int -> sparse_row) ->
-    slip_particle -> planar -> (int * Big_int_Z.big_int) list **)
-
-let rows_along table0 rows p factors0 =
-  cat (multiple (fst factors0) (columns table0 (rows p.first_dof)))
-    (multiple (snd factors0) (columns table0 (rows p.second_dof)))
 
 (** val direction :
     Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
@@ -2754,61 +2763,60 @@ let direction a b p =
     (Big_int_Z.add_big_int (Big_int_Z.mult_big_int a (snd p.tangent))
       (Big_int_Z.mult_big_int b (snd p.normal))))
 
-(** val free_row_b :
-    system -> unknown -> (int * Big_int_Z.big_int) option list -> int ->
-    (int * Big_int_Z.big_int) list **)
+(** val at_both :
+    (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
 
-let free_row_b s u table0 d =
-  match u with
-  | Mu -> []
-  | Lambda2 (_, _) -> columns table0 (m_row s d)
+let at_both rows p e =
+  cat (multiple (fst e) (rows p.first_dof))
+    (multiple (snd e) (rows p.second_dof))
 
-(** val slip_row_a :
-    system -> unknown -> (int * Big_int_Z.big_int) option list ->
-    slip_particle -> (int * Big_int_Z.big_int) list **)
+(** val force_form : system -> unknown -> int -> linear_form **)
 
-let slip_row_a s u table0 p =
-  match u with
-  | Mu ->
-    rows_along table0 (k_row s) p
-      (direction (Big_int_Z.minus_big_int p.sign_of) Big_int_Z.zero_big_int p)
-  | Lambda2 (m, q) ->
-    rows_along table0 (k_row s) p
-      (direction
-        (Big_int_Z.minus_big_int (Big_int_Z.mult_big_int q p.sign_of))
-        (Big_int_Z.minus_big_int m) p)
+let force_form s u d =
+  ((k_row s d), (match u with
+                 | Mu -> []
+                 | Lambda2 (_, _) -> m_row s d))
 
-(** val slip_row_b :
-    system -> unknown -> (int * Big_int_Z.big_int) option list ->
-    slip_particle -> (int * Big_int_Z.big_int) list **)
+(** val pressing_form :
+    system -> unknown -> planar -> slip_particle -> linear_form **)
 
-let slip_row_b s u table0 p =
+let pressing_form s u e p =
+  ((at_both (k_row s) p e),
+    (match u with
+     | Mu -> []
+     | Lambda2 (_, _) -> at_both (m_row s) p e))
+
+(** val cone_form : system -> unknown -> slip_particle -> linear_form **)
+
+let cone_form s u p =
   match u with
   | Mu ->
-    rows_along table0 (k_row s) p
-      (direction Big_int_Z.zero_big_int
-        (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
+    ((at_both (k_row s) p (direction p.sign_of Big_int_Z.zero_big_int p)),
+      (at_both (k_row s) p
+        (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
   | Lambda2 (m, q) ->
-    rows_along table0 (m_row s) p
-      (direction
-        (Big_int_Z.minus_big_int (Big_int_Z.mult_big_int q p.sign_of))
-        (Big_int_Z.minus_big_int m) p)
+    ((at_both (k_row s) p
+       (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
+      (at_both (m_row s) p
+        (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
 
-(** val pencil_by :
-    system -> unknown -> (int * Big_int_Z.big_int) option list -> pencil **)
+(** val negative : linear_form -> linear_form **)
 
-let pencil_by s u table0 =
-  { order = (addn (free_number s) (size s.particles)); rows_a =
-    (cat (map0 (fun d -> columns table0 (k_row s d)) s.free_dofs)
-      (map0 (fun p -> slip_row_a s u table0 p) s.particles)); rows_b =
-    (cat (map0 (fun d -> free_row_b s u table0 d) s.free_dofs)
-      (map0 (fun p -> slip_row_b s u table0 p) s.particles)); free =
-    (iota 0 (free_number s)) }
+let negative f =
+  ((multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (fst f)),
+    (multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (snd f)))
+
+(** val system_forms : system -> unknown -> linear_form list **)
+
+let system_forms s u =
+  cat (map0 (fun d -> force_form s u d) s.free_dofs)
+    (map0 (fun p -> negative (cone_form s u p)) s.particles)
 
 (** val pencil_of : system -> unknown -> pencil **)
 
 let pencil_of s u =
-  pencil_by s u (column_table s)
+  pencil_of_forms (column_rows s) (addn (free_number s) (size s.particles))
+    (system_forms s u) (iota 0 (free_number s))
 
 (** val columns_in_range : system -> sparse_row list -> bool **)
 
@@ -4138,9 +4146,9 @@ let ff_block q row =
 (** val fs_block : pencil -> (int -> sparse_row) -> matrix **)
 
 let fs_block q row =
-  let columns0 = slip q in
+  let columns = slip q in
   map0 (fun i ->
-    let entries = row i in map0 (fun j -> lookup entries j) columns0) q.free
+    let entries = row i in map0 (fun j -> lookup entries j) columns) q.free
 
 (** val sf_block : pencil -> (int -> sparse_row) -> matrix **)
 
@@ -4151,9 +4159,9 @@ let sf_block q row =
 (** val ss_block : pencil -> (int -> sparse_row) -> matrix **)
 
 let ss_block q row =
-  let columns0 = slip q in
+  let columns = slip q in
   map0 (fun i ->
-    let entries = row i in map0 (fun j -> lookup entries j) columns0) columns0
+    let entries = row i in map0 (fun j -> lookup entries j) columns) columns
 
 (** val residual_series :
     anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix
@@ -4934,53 +4942,6 @@ let box_regular p p' r w =
         (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c))
           four_corners)))
 
-type form = sparse_row * sparse_row
-
-(** val at_both :
-    (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
-
-let at_both rows p e =
-  cat (multiple (fst e) (rows p.first_dof))
-    (multiple (snd e) (rows p.second_dof))
-
-(** val force_form : zero_system -> unknown -> int -> form **)
-
-let force_form z0 u d =
-  ((k_row z0.without_zero d),
-    (match u with
-     | Mu -> []
-     | Lambda2 (_, _) -> m_row z0.without_zero d))
-
-(** val pressing_form :
-    zero_system -> unknown -> planar -> slip_particle -> form **)
-
-let pressing_form z0 u e p =
-  ((at_both (k_row z0.without_zero) p e),
-    (match u with
-     | Mu -> []
-     | Lambda2 (_, _) -> at_both (m_row z0.without_zero) p e))
-
-(** val cone_form : zero_system -> unknown -> slip_particle -> form **)
-
-let cone_form z0 u p =
-  match u with
-  | Mu ->
-    ((at_both (k_row z0.without_zero) p
-       (direction p.sign_of Big_int_Z.zero_big_int p)),
-      (at_both (k_row z0.without_zero) p
-        (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
-  | Lambda2 (m, q) ->
-    ((at_both (k_row z0.without_zero) p
-       (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
-      (at_both (m_row z0.without_zero) p
-        (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
-
-(** val negative : form -> form **)
-
-let negative f =
-  ((multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (fst f)),
-    (multiple (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (snd f)))
-
 (** val zero_firsts : zero_system -> int list **)
 
 let zero_firsts z0 =
@@ -5031,14 +4992,6 @@ let zero_columns z0 d =
 let zero_table z0 =
   map0 (fun d -> zero_columns z0 (Obj.magic d)) (iota 0 z0.without_zero.dofs)
 
-(** val zero_row : sparse_row list -> sparse_row -> sparse_row **)
-
-let zero_row table0 row =
-  flatten
-    (map0 (fun e ->
-      map0 (fun c -> ((fst c), (Big_int_Z.mult_big_int (snd c) (snd e))))
-        (nth [] table0 (fst e))) row)
-
 (** val row_multiple : unknown -> Big_int_Z.big_int **)
 
 let row_multiple = function
@@ -5051,44 +5004,37 @@ let scaled_normal u p =
   ((Big_int_Z.mult_big_int (row_multiple u) (fst (unit_normal p))),
     (Big_int_Z.mult_big_int (row_multiple u) (snd (unit_normal p))))
 
-(** val zero_forms : zero_system -> unknown -> int -> form list **)
+(** val zero_forms : zero_system -> unknown -> int -> linear_form list **)
 
 let zero_forms z0 u j =
   let p = zero_particle z0 j in
-  (negative (pressing_form z0 u (scaled_normal u p) p)) :: ((negative
-                                                              (cone_form z0 u
-                                                                (with_sign
-                                                                  (Big_int_Z.minus_big_int
-                                                                  Big_int_Z.unit_big_int)
-                                                                  p))) :: (
-  (negative (cone_form z0 u (with_sign Big_int_Z.unit_big_int p))) :: []))
+  (negative (pressing_form z0.without_zero u (scaled_normal u p) p)) :: (
+  (negative
+    (cone_form z0.without_zero u
+      (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p))) :: (
+  (negative
+    (cone_form z0.without_zero u (with_sign Big_int_Z.unit_big_int p))) :: []))
 
-(** val variable_forms : zero_system -> unknown -> form list **)
+(** val variable_forms : zero_system -> unknown -> linear_form list **)
 
 let variable_forms z0 u =
-  cat (map0 (fun d -> force_form z0 u d) z0.without_zero.free_dofs)
+  cat
+    (map0 (fun d -> force_form z0.without_zero u d) z0.without_zero.free_dofs)
     (cat
-      (map0 (fun p -> negative (cone_form z0 u p)) z0.without_zero.particles)
+      (map0 (fun p -> negative (cone_form z0.without_zero u p))
+        z0.without_zero.particles)
       (flatten
         (map0 (fun j -> zero_forms z0 u j) (iota 0 (size z0.zero_particles)))))
-
-(** val pencil_by_table :
-    zero_system -> unknown -> sparse_row list -> pencil **)
-
-let pencil_by_table z0 u table0 =
-  { order =
-    (addn
-      (addn (free_number z0.without_zero) (size z0.without_zero.particles))
-      (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-        (size z0.zero_particles))); rows_a =
-    (map0 (fun f -> zero_row table0 (fst f)) (variable_forms z0 u)); rows_b =
-    (map0 (fun f -> zero_row table0 (snd f)) (variable_forms z0 u)); free =
-    (iota 0 (free_number z0.without_zero)) }
 
 (** val zero_pencil : zero_system -> unknown -> pencil **)
 
 let zero_pencil z0 u =
-  pencil_by_table z0 u (zero_table z0)
+  pencil_of_forms (zero_table z0)
+    (addn
+      (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+      (muln (Natural.succ (Natural.succ (Natural.succ 0)))
+        (size z0.zero_particles))) (variable_forms z0 u)
+    (iota 0 (free_number z0.without_zero))
 
 (** val part_plain : zero_system -> pencil **)
 
@@ -5795,16 +5741,16 @@ let check_at_value q e claims c ls =
             (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
             (Obj.magic (fst f).upper) (Obj.magic e))) (families c e e ls)))
 
-(** val zero_row0 : sparse_row -> bool **)
+(** val zero_row : sparse_row -> bool **)
 
-let zero_row0 row =
+let zero_row row =
   all (fun c ->
     Big_int_Z.eq_big_int (lookup row (fst c)) Big_int_Z.zero_big_int) row
 
 (** val reverse_pencil : pencil -> pencil **)
 
 let reverse_pencil q =
-  let constant0 = fun i -> zero_row0 (row_b q i) in
+  let constant0 = fun i -> zero_row (row_b q i) in
   { order = q.order; rows_a =
   (map0 (fun i -> if constant0 i then row_a q i else row_b q i)
     (iota 0 q.order)); rows_b =

@@ -943,9 +943,16 @@ type system = { dofs : int; stiffness : sparse_row list;
                 particles : slip_particle list;
                 unit_length : Big_int_Z.big_int }
 
+type linear_form = sparse_row * sparse_row
+
 type unknown =
 | Mu
 | Lambda2 of Big_int_Z.big_int * Big_int_Z.big_int
+
+val table_row : sparse_row list -> sparse_row -> sparse_row
+
+val pencil_of_forms :
+  sparse_row list -> int -> linear_form list -> int list -> pencil
 
 val free_number : system -> int
 
@@ -965,32 +972,25 @@ val column : system -> Equality.sort -> (int * Big_int_Z.big_int) option
 
 val column_table : system -> (int * Big_int_Z.big_int) option list
 
-val columns :
-  (int * Big_int_Z.big_int) option list -> sparse_row -> sparse_row
+val column_rows : system -> sparse_row list
 
 val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row
-
-val rows_along :
-  (int * Big_int_Z.big_int) option list -> (int -> sparse_row) ->
-  slip_particle -> planar -> (int * Big_int_Z.big_int) list
 
 val direction :
   Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
 
-val free_row_b :
-  system -> unknown -> (int * Big_int_Z.big_int) option list -> int ->
-  (int * Big_int_Z.big_int) list
+val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row
 
-val slip_row_a :
-  system -> unknown -> (int * Big_int_Z.big_int) option list -> slip_particle
-  -> (int * Big_int_Z.big_int) list
+val force_form : system -> unknown -> int -> linear_form
 
-val slip_row_b :
-  system -> unknown -> (int * Big_int_Z.big_int) option list -> slip_particle
-  -> (int * Big_int_Z.big_int) list
+val pressing_form :
+  system -> unknown -> planar -> slip_particle -> linear_form
 
-val pencil_by :
-  system -> unknown -> (int * Big_int_Z.big_int) option list -> pencil
+val cone_form : system -> unknown -> slip_particle -> linear_form
+
+val negative : linear_form -> linear_form
+
+val system_forms : system -> unknown -> linear_form list
 
 val pencil_of : system -> unknown -> pencil
 
@@ -1636,18 +1636,6 @@ val four_corners : int list
 
 val box_regular : enclosed -> enclosed -> region -> regular -> bool
 
-type form = sparse_row * sparse_row
-
-val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row
-
-val force_form : zero_system -> unknown -> int -> form
-
-val pressing_form : zero_system -> unknown -> planar -> slip_particle -> form
-
-val cone_form : zero_system -> unknown -> slip_particle -> form
-
-val negative : form -> form
-
 val zero_firsts : zero_system -> int list
 
 val zero_seconds : zero_system -> int list
@@ -1663,17 +1651,13 @@ val zero_columns : zero_system -> Equality.sort -> sparse_row
 
 val zero_table : zero_system -> sparse_row list
 
-val zero_row : sparse_row list -> sparse_row -> sparse_row
-
 val row_multiple : unknown -> Big_int_Z.big_int
 
 val scaled_normal : unknown -> slip_particle -> planar
 
-val zero_forms : zero_system -> unknown -> int -> form list
+val zero_forms : zero_system -> unknown -> int -> linear_form list
 
-val variable_forms : zero_system -> unknown -> form list
-
-val pencil_by_table : zero_system -> unknown -> sparse_row list -> pencil
+val variable_forms : zero_system -> unknown -> linear_form list
 
 val zero_pencil : zero_system -> unknown -> pencil
 
@@ -1892,7 +1876,7 @@ val check_at_value :
   pencil -> point -> solution_claim list -> cover -> support_leaf option list
   -> bool
 
-val zero_row0 : sparse_row -> bool
+val zero_row : sparse_row -> bool
 
 val reverse_pencil : pencil -> pencil
 
