@@ -13,7 +13,7 @@
 
        u^2 (D - H F^-1 G) = u^2 D - u H W - V' r - l' F^-1 r.
 
-   The last term is the radius: if F >= (d/c) I, then |F^-1 r|_max <= (c/d) |r|_1, so
+   The last term is the radius: if F >= (d/c) I, then |F^-1 r| <= (c/d) |r| in Euclidean norms, so
    |l' F^-1 r| <= (c/d) |l|_1 |r|_1.  The lower bound d/c is shown by a factor that covers
    c F - d I (Covered.v).
 
@@ -26,7 +26,7 @@
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence Elimination.
+From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence Norms Elimination.
 From Mceip Require Export Bounded.
 
 Set Implicit Arguments.
@@ -250,30 +250,6 @@ move=> z; rewrite -(ler_pmul2l c_gt0) mulrA [_ * s]mulrC divfK ?gt_eqF ?c_gt0 //
 exact: F_bounded.
 Qed.
 
-(* |F^-1 r|_max <= (c/d) |r|_1 *)
-Lemma solve_bounded (r z : nat -> R) :
-  (forall i, i \in free_ix -> \sum_(k <- free_ix) F i k * z k = r i) ->
-  forall k, k \in free_ix ->
-  toR (bound_d w) * `|z k| <= toR (bound_c w) * \sum_(i <- free_ix) `|r i|.
-Proof.
-move=> Fz k Hk; have free0 : free_ix != [::] by apply: contraTneq Hk => ->.
-have [m Hm largest_m] := largest z free0.
-apply: (@le_trans _ _ (toR (bound_d w) * `|z m|)); first by rewrite ler_pmul2l ?d_gt0 ?largest_m.
-have [->|zm] := eqVneq (z m) 0.
-  by rewrite normr0 mulr0 mulr_ge0 ?(ltW c_gt0) ?sum_ge0.
-
-have zm0 : 0 < `|z m| by rewrite normr_gt0.
-rewrite -(ler_pmul2r zm0) -mulrA -expr2 -normrX ger0_norm ?sqr_ge0 //.
-apply: (@le_trans _ _ (toR (bound_d w) * \sum_(k <- free_ix) z k ^+ 2)).
-  rewrite ler_pmul2l ?d_gt0 // (bigD1_seq m) ?iota_uniq //= ler_addl sumr_ge0 // => j _.
-  by rewrite sqr_ge0.
-apply: le_trans (F_bounded z) _; rewrite -mulrA ler_pmul2l ?c_gt0 // mulr_suml.
-apply: sum_le => i Hi.
-have -> : \sum_(k <- free_ix) z i * F i k * z k = z i * r i.
-  by rewrite -Fz // mulr_sumr; apply: eq_bigr => j _; rewrite mulrA.
-by apply: le_trans (ler_norm _) _; rewrite normrM mulrC ler_wpmul2l // largest_m.
-Qed.
-
 (* F^-1 G *)
 Definition inverse_fs j := solve (free_count D) F (at_ (fs D) j).
 
@@ -367,11 +343,9 @@ rewrite -(ler_pmul2r d_gt0); apply: (@le_trans _ _
     (toR (nth 0%Z (row_scale w) i * (norm1 ll * norm1 rr * bound_c w))%Z)); last first.
   rewrite -toRM toR_le; apply: divide_up_ge; by case/and3P: positive.
 rewrite !toRM -/(scale_of i) -[X in X <= _]mulrA ler_pmul2l ?scale_gt0 //.
-rewrite norm_l norm_r -mulrA [X in _ <= X]mulr_suml.
-apply: (@le_trans _ _ ((\sum_(k <- free_ix) `|L k * z k|) * toR (bound_d w))).
-  by rewrite ler_pmul2r ?d_gt0 // sum_norm.
-rewrite mulr_suml; apply: sum_le => k Hk; rewrite normrM -mulrA; apply: ler_wpmul2l => //.
-by rewrite mulrC [X in _ <= X]mulrC; apply: (solve_bounded Fz).
+rewrite norm_l norm_r -ler_pdivl_mulr ?d_gt0 //.
+apply: le_trans (dot_bound (norm_sum _ L) (norm_of_solution s0 below Fz (norm_sum _ Rr))) _.
+by rewrite invf_div !mulrA.
 Qed.
 
 Lemma sizes i : i \in slip_ix ->

@@ -64,6 +64,15 @@ rewrite -normrX ger0_norm ?sqr_ge0 // exprMn (le_trans (cauchy_schwarz l y z)) /
 by apply: ler_pmul => //; apply: squares_ge0.
 Qed.
 
+(* A norm is at most the sum of the absolute values. *)
+Lemma norm_sum z : norm_le z (\sum_(k <- l) `|z k|).
+Proof.
+split; first by apply: sumr_ge0.
+elim: l => [|k s IH]; first by rewrite !big_nil expr0n.
+rewrite !big_cons sqrrD -normrX (ger0_norm (sqr_ge0 _)) -addrA ler_add2l.
+by rewrite (le_trans IH) // ler_addr mulrn_wge0 // mulr_ge0 // sumr_ge0.
+Qed.
+
 Lemma norm_ext y z n : (forall k, k \in l -> y k = z k) -> norm_le y n -> norm_le z n.
 Proof.
 move=> same [n0 le]; split=> //; rewrite (_ : \sum_(k <- l) _ = \sum_(k <- l) y k ^+ 2) //.

@@ -257,48 +257,26 @@ Lemma zero_signs z u sup bi t v : zero_wellformed z u ->
   has_signs (sem (ZeroProblem z u)) sup bi t v.
 Proof.
 move=> wf sup_v sup_z j; rewrite /= size_slips => lt_j; rewrite zero_slips nth_iota //.
-have wf_s : system_wellformed (without_zero z) u by case/and4P: wf.
-set s := without_zero z in sup_v wf_s *; set ns := size (particles s).
-have [lt_s|ge_s] := ltnP j ns.
-  rewrite /zero_variables_of /z_row ltn_add2l -/s -/ns lt_s.
-  exact: slip_signs.
-pose q := ((j - ns) %/ 3)%N; pose m := ((j - ns) %% 3)%N.
-have lt_q : (q < size (zero_particles z))%N.
-  by rewrite /q ltn_divLR // mulnC ltn_subLR.
-have j_eq : (free_number s + j = gap z q + m)%N.
-  rewrite /gap -/s -/ns -addnA [(3 * q)%N]mulnC -[(q * 3 + m)%N]divn_eq -addnA subnKC //.
-have [gapE rightE leftE] := variables_at v lt_q.
-have [opening pressure sliding right_row left_row] := sup_z _ lt_q.
-have l2 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wf_s).
-have [c c0 normalE] := along_normal wf v lt_q; rewrite normalE in opening.
-rewrite /z_row -/s -/ns ltnNge ge_s /= -/q -/m j_eq.
-have : (m < 3)%N by rewrite ltn_mod.
-case: m {j_eq} => [|[|[|]]] // _ /=.
-- rewrite addn0 gapE; split.
-  + move=> in_s; move: opening; rewrite in_s /= pmulr_rlt0 // => neg.
-    by rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
-  + move=> out; move: opening; rewrite out => /eqP; rewrite mulf_eq0 gt_eqF //= => /eqP ->.
-    by rewrite mul0r oppr0.
-  + by move=> _ in_bi; move: pressure; rewrite /row_sign in_bi orbT => ->; rewrite oppr0.
-  by move=> out out_bi; move: pressure; rewrite /row_sign (negbTE out) (negbTE out_bi) oppr_gt0.
-- rewrite addn1 -[(gap z q).+1]/(right z q) rightE pmulr_lgt0 ?invr_gt0 //; split.
-  + by move=> in_s; move: sliding; rewrite in_s => -[_ pos]; rewrite pos divr_gt0.
-  + move=> out; move: sliding; rewrite (negbTE out).
-    by case: ifP => _ => [->|neg]; [rewrite ltxx | rewrite (lt_gtF neg)].
-  + move=> _ in_bi; move: right_row; rewrite /row_sign in_bi orbT => /eqP.
-    by rewrite addr_eq0 => /eqP/oppr_inj->; rewrite subrr.
-  move=> out out_bi; move: right_row; rewrite /row_sign (negbTE out) (negbTE out_bi) => neg.
-  by rewrite -oppr_lt0 opprB addrC.
-rewrite addn2 -[(gap z q).+2]/(left z q) leftE pmulr_llt0 ?invr_gt0 //; split.
-+ move=> in_s; move: sliding; rewrite in_s /=; case: ifP => _ [] //.
-  by move=> neg; rewrite neg oppr_gt0 pmulr_llt0 ?invr_gt0.
-+ move=> out; move: sliding; rewrite out; case: ifP => _.
-    by case=> _ pos; rewrite (lt_gtF pos).
-  by move=> ->; rewrite ltxx.
-+ move=> _ in_bi; move: left_row; rewrite /row_sign in_bi orbT => /eqP.
-  by rewrite addr_eq0 => /eqP->; rewrite opprK subrr.
-move=> out out_bi; move: left_row; rewrite /row_sign (negbTE out) (negbTE out_bi) => neg.
-by rewrite -oppr_lt0 opprD !opprK.
+set s := without_zero z in sup_v *; set ns := size (particles s).
+have i_slip : (free_number s + j)%N \in slip (zero_pencil z u).
+  by rewrite zero_slips mem_iota leq_addr ltn_add2l.
+have [pos zero] := support_moves wf sup_v sup_z i_slip.
+have sign : (free_number s + j)%N \notin sup ->
+    row_sign (free_number s + j)%N sup bi (- z_row z u t v j).
+  move=> out; rewrite /z_row -/s -/ns; have [lt_s|ge_s] := ltnP j ns.
+    have [_ _ zero_row neg_row] := sup_v _ lt_s; rewrite /slip_row opprK /row_sign (negbTE out).
+    by case: ifPn => in_bi; [apply: zero_row | apply: neg_row].
+  have lt_q : ((j - ns) %/ 3 < size (zero_particles z))%N by rewrite ltn_divLR // mulnC ltn_subLR.
+  have [_ pressure _ right_row left_row] := sup_z _ lt_q.
+  have -> : (free_number s + j = gap z ((j - ns) %/ 3) + (j - ns) %% 3)%N.
+    by rewrite /gap -/s -/ns -addnA [(3 * _)%N]mulnC -divn_eq -addnA subnKC.
+  have : ((j - ns) %% 3 < 3)%N by rewrite ltn_mod.
+  case: (_ %% 3)%N => [|[|[|]]] // _ /=; rewrite ?addn0 ?addn1 ?addn2 ?opprK //.
+    by rewrite opprB addrC.
+  by rewrite opprD !opprK.
+split=> // out.
+  by move=> in_bi; have := sign out; rewrite /row_sign in_bi orbT => /eqP; rewrite oppr_eq0 => /eqP.
+by move=> out_bi; have := sign out; rewrite /row_sign (negbTE out) (negbTE out_bi) oppr_lt0.
 Qed.
 
 Lemma pencil_claim Q k lo hi : check_solution_claim Q k -> in_window lo hi (asserted_of k) ->

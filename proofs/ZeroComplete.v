@@ -247,14 +247,14 @@ Lemma zero_box_known (R : rcfType) z u b : zero_wellformed z u ->
   exists (t : R) x, known_solution (zero_pencil z u) (known_box z u b) t x.
 Proof.
 move=> wf ok; have [t [v [bt sat slips zeros _]]] := zero_enclosed_sound R ok.
-case/and5P: ok => _ /allP in_range halves _ _; exists t, (zero_variables_of z v).
+case/and5P: ok => _ /allP in_range _ _ _; exists t, (zero_variables_of z v).
 have names : all (fun i => i \in slip (zero_pencil z u)) (box_names b).
   apply/allP=> i /in_range /andP[ge_i lt_i].
   by rewrite mem_filter !mem_iota !add0n -leqNgt ge_i.
 split=> // [|k lt_k]; first exact: zero_pencil_solution.
 rewrite (mem_positions lt_k names) /slip_of; split=> //.
-  by have [] := moving_variables wf halves (moves_of_support slips zeros) (mem_nth 0%N lt_k).
-by have [] := moving_variables wf halves (moves_of_support slips zeros) (mem_nth 0%N lt_k).
+  by have [] := support_moves wf slips zeros (mem_nth 0%N lt_k).
+by have [] := support_moves wf slips zeros (mem_nth 0%N lt_k).
 Qed.
 
 (* Boxes beside the regions that a cover leaves undecided. *)

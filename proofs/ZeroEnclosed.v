@@ -107,33 +107,20 @@ Let wf_s : system_wellformed s u := wf_system wf.
 Let l2 : 0 < toR (unit_length s) ^+ 2 :> R := L2_gt0 R wf.
 Let f0 : 0 < row_factor R u := row_factor_gt0 R wf_s.
 
+Notation one_at_most j := (~~ ((right z j \in support) && (left z j \in support))).
+
 (* Which variables of a motion move. *)
-Lemma moves_of_support biactive t v :
-  has_support s u support biactive t v -> has_zero_support z u support biactive t v ->
-  moves_on z support v.
-Proof.
-move=> slips zeros; split=> j lt_j p.
-  by have [pos zero _ _] := slips j lt_j; case: ifPn => [/zero|/negbNE/pos].
-have [opening _ sliding _ _] := zeros j lt_j; split=> //.
-by move: sliding; case: (_ \in support) => /= [[]|]; case: (_ \in support).
-Qed.
-
-Hypothesis halves : all (one_half z support) (iota 0 nz).
-
-Lemma one_half_at j : (j < nz)%N -> one_half z support j.
-Proof. by move=> lt_j; apply: (allP halves); rewrite mem_iota. Qed.
-
-Lemma moving_variables v : moves_on z support v -> forall i, i \in slip Q ->
-  (i \in support -> 0 < zero_variables_of z v i) /\
+Lemma moving_variables v : (forall j, (j < nz)%N -> one_at_most j) -> moves_on z support v ->
+  forall i, i \in slip Q -> (i \in support -> 0 < zero_variables_of z v i) /\
   (i \notin support -> zero_variables_of z v i = 0).
 Proof.
-case=> slips zeros i /zero_slip_cases[[j lt_j ->]|[j lt_j cases]].
+move=> apart [slips zeros] i /zero_slip_cases[[j lt_j ->]|[j lt_j cases]].
   have := slips j lt_j; rewrite /zero_variables_of ltn_add2l lt_j /variables_of ltnNge leq_addr /=.
   rewrite addKn; case: (_ \in support) => /= rate; split=> // _; last by rewrite rate mul0r oppr0.
   by rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
 have [opening sliding] := zeros j lt_j; have [gapE rightE leftE] := variables_at v lt_j.
 have [c c0 normalE] := along_normal wf v lt_j; rewrite normalE in opening.
-have /andP[both _] := one_half_at lt_j.
+have both := apart j lt_j.
 case: cases => ->; rewrite ?gapE ?rightE ?leftE.
 - move: opening; case: (_ \in support) => /= [|/eqP].
     by rewrite pmulr_rlt0 // => neg; split; rewrite // oppr_gt0 pmulr_llt0 ?invr_gt0.
@@ -146,6 +133,26 @@ rewrite pmulr_llt0 ?invr_gt0 //; move: both sliding; case: (right z j \in suppor
   by move=> /negbTE-> pos; rewrite (lt_gtF pos); split.
 case: (left z j \in support) => /= _; last by move=> ->; rewrite ltxx; split.
 by move=> neg; rewrite neg; split=> // _; rewrite oppr_gt0 pmulr_llt0 ?invr_gt0.
+Qed.
+
+Lemma support_moves biactive t v :
+  has_support s u support biactive t v -> has_zero_support z u support biactive t v ->
+  forall i, i \in slip Q -> (i \in support -> 0 < zero_variables_of z v i) /\
+  (i \notin support -> zero_variables_of z v i = 0).
+Proof.
+move=> slips zeros; apply: moving_variables.
+  by move=> j lt_j; have [_ _ + _ _] := zeros j lt_j; case: (right z j \in _) => //= -[].
+split=> j lt_j p.
+  by have [pos zero _ _] := slips j lt_j; case: ifPn => [/zero|/negbNE/pos].
+have [opening _ sliding _ _] := zeros j lt_j; split=> //.
+by move: sliding; case: (_ \in support) => /= [[]|]; case: (_ \in support).
+Qed.
+
+Hypothesis halves : all (one_half z support) (iota 0 nz).
+
+Lemma one_half_at j : (j < nz)%N -> one_at_most j.
+Proof.
+by move=> lt_j; have /andP[] : one_half z support j by apply: (allP halves); rewrite mem_iota.
 Qed.
 
 (* The rows of the pencil of the claim. *)
@@ -172,9 +179,9 @@ Lemma rest_slip i : i \in rest -> i \in slip Q /\ i \notin support.
 Proof.
 rewrite mem_cat => /orP[]/mapP[j]; rewrite mem_filter mem_iota => /andP[/andP[_ other] lt_j] ->.
   split; first by rewrite -[left z j]addn2; apply: three_in_zero_pencil.
-  by have /andP[both _] := one_half_at lt_j; rewrite other in both.
+  by have both := one_half_at lt_j; rewrite other in both.
 split; first by rewrite -[right z j]addn1; apply: three_in_zero_pencil.
-by have /andP[both _] := one_half_at lt_j; rewrite other andbT in both.
+by have both := one_half_at lt_j; rewrite other andbT in both.
 Qed.
 
 Lemma free_not_rest i : i \in free Q -> (i \in rest) = false.
@@ -236,7 +243,7 @@ move=> j lt_j; have [_ _ _ rows] := found_solution.
 have r_in : right z j \in slip Q by rewrite -[right z j]addn1; apply: three_in_zero_pencil.
 have l_in : left z j \in slip Q by rewrite -[left z j]addn2; apply: three_in_zero_pencil.
 have [r0 _ _] := rows _ r_in; have [l0 _ _] := rows _ l_in; split=> //.
-have /andP[both _] := one_half_at lt_j.
+have both := one_half_at lt_j.
 by move: both; rewrite negb_and => /orP[/(off r_in)|/(off l_in)] [-> _]; rewrite ?mul0r ?mulr0.
 Qed.
 
@@ -258,7 +265,7 @@ have g_in : gap z j \in slip Q by rewrite -[gap z j]addn0; apply: at_k.
 have r_in : right z j \in slip Q by rewrite -[right z j]addn1; apply: at_k.
 have l_in : left z j \in slip Q by rewrite -[left z j]addn2; apply: at_k.
 have [gapE rightE leftE] := zero_reactions wf t x lt_j.
-have /andP[both _] := one_half_at lt_j.
+have both := one_half_at lt_j.
 have [c c0 v_normal] := along_normal wf (zero_motion z x) lt_j.
 have [c' c'0 w_normal] := along_normal wf w' lt_j.
 split.
@@ -290,7 +297,7 @@ split=> // i Hi.
   rewrite support_reaction ?free_not_rest ?rows_f //.
   exact: (free_indices (zero_pencil_wellformed z u)).
 rewrite support_reaction ?slip_indices //; case: ifP => [i_rest|_]; last exact: rows_s.
-have [_ out] := rest_slip i_rest; have [_ zero] := moving_variables moves Hi.
+have [_ out] := rest_slip i_rest; have [_ zero] := moving_variables one_half_at moves Hi.
 by rewrite zero // mul0r; split=> //; have [] := rows_s _ (in_slip (head_in i_rest)).
 Qed.
 
@@ -314,7 +321,7 @@ rewrite support_eq in on off uniq; exists t, (zero_motion z x); split=> //.
   exact: (found_split wf halves in_slip sol on off).
 - exact: (found_support wf halves in_slip sol on off).
 - exact: (found_zero_support wf halves in_slip sol on off).
-move=> t' v' sat bt' moves; have signs := moving_variables wf halves moves.
+move=> t' v' sat bt' moves; have signs := moving_variables wf (one_half_at halves) moves.
 have [||-> [f f_gt0 scaled]] := uniq _ _ (motion_solution wf halves in_slip sat moves) bt'.
 - by move=> i /signs[].
 - by move=> i /signs[].
