@@ -81,7 +81,7 @@ Definition pencil_at (e : point) := zero_pencil (freed z) (Lambda2 e.1 e.2).
 
 (* Weights of slip rows are the same at both ends; those of free rows need not be. *)
 Definition same_weights (a b : whole) :=
-  (whole_negative a == whole_negative b) &&
+  Bool.eqb (whole_negative a) (whole_negative b) &&
   all (fun i => nth 1 (whole_weights a) i =? nth 1 (whole_weights b) i)%Z
     (iota (free_number (without_zero (freed z))) (size (particles s))).
 
@@ -415,7 +415,7 @@ Lemma whole_absent a b :
   [&& same_weights z a b, zero_weights z a, zero_weights z b, check_whole (pencil_at z low) r a &
       check_whole (pencil_at z high) r b] -> False.
 Proof.
-case/and5P=> same zero_a zero_b checked_a checked_b; have /andP[/eqP signs _] := same.
+case/and5P=> same zero_a zero_b checked_a checked_b; have /andP[/Bool.eqb_prop signs _] := same.
 have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
 have wfQ e : wellformed (pencil_at z e) := zero_pencil_wellformed _ _.
 have la := whole_image (Q := pencil_at z low) (wfQ _) O checked_a bt freed_agrees freed_variables.

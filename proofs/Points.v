@@ -56,7 +56,7 @@ Definition point_pencil (e : point) : pencil :=
 (* The families are in this value: in regions with no other. *)
 Definition check_at_value (e : point) claims c ls :=
   [&& (0 <? e.2)%Z, check_families (point_pencil e) claims c e e ls &
-      all (fun f => (lower f.1 == e) && (upper f.1 == e)) (families c e e ls)].
+      all (fun f => same_point (lower f.1) e && same_point (upper f.1) e) (families c e e ls)].
 
 (* Entries at one column may cancel. *)
 Definition zero_row (row : sparse_row) := all (fun c => lookup row c.1 =? 0)%Z row.
@@ -156,7 +156,8 @@ Proof.
 have [finite fam wf] := point_parts => f_in; have [pl each] := families_hold R fam f_in.
 have at_e (t : R) : in_place (held_place f.2) t -> between t e e.
   move=> /each[[x [_ [bt _]]] _]; have /and3P[_ _ inside] := checked.
-  by have /andP[/eqP lo /eqP hi] := Support.all_In inside f_in; rewrite lo hi in bt.
+  by have /andP[/same_point_eq lo /same_point_eq hi] :=
+    Support.all_In inside f_in; rewrite lo hi in bt.
 split=> //; split=> // t at_t; have [[x [sol reg]] alone] := each t at_t.
 have same y := point_solution finite y wf (at_e t at_t).
 split; first by exists x; split=> //; apply/same.

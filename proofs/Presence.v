@@ -76,7 +76,7 @@ Definition check_presence_piece (inside start finish : enclosed * enclosed) (r :
       positive_vector (presence_box w) & presence_inside inside.1 inside.2 r k (presence_box w)] &&
   [&& presence_edge start.1 start.2 r k (presence_start w) [:: 0; 2]%N,
       presence_edge finish.1 finish.2 r k (presence_finish w) [:: 1; 3]%N &
-      regular_minus (presence_start w) != regular_minus (presence_finish w)].
+      regular_minus (presence_start w) (+) regular_minus (presence_finish w)].
 
 (* What the corners in cs say of a vector x whose rows in K vanish, for the matrix F at t. *)
 Section AtCorners.
@@ -248,7 +248,7 @@ Lemma checked_parts :
          forall c, c \in four_corners -> rest_row P P' r k (presence_box w) i c &
       [/\ presence_edge Ps Ps' r k (presence_start w) [:: 0; 2]%N,
           presence_edge Pf Pf' r k (presence_finish w) [:: 1; 3]%N &
-          regular_minus (presence_start w) != regular_minus (presence_finish w)]].
+          regular_minus (presence_start w) (+) regular_minus (presence_finish w)]].
 Proof.
 case/andP: checked => /and5P[dec _ fin v0 /and3P[/allP rows_ok /allP pos /allP rest]] /and3P[? ? ?].
 split=> //; first by split=> //; rewrite toR_gt0.

@@ -37,6 +37,11 @@ Definition point := (Z * Z)%type.
 Definition zero : point := (0%Z, 1%Z).
 Definition infinity : point := (1%Z, 0%Z).
 
+Definition same_point (a b : point) := (a.1 =? b.1)%Z && (a.2 =? b.2)%Z.
+
+Lemma same_point_eq a b : same_point a b -> a = b.
+Proof. by case: a b => [p q] [p' q'] /andP[/Z.eqb_spec /= -> /Z.eqb_spec /= ->]. Qed.
+
 Inductive state := Open | Resting | Moving.
 
 Definition is_resting s := if s is Resting then true else false.

@@ -33,7 +33,7 @@ Local Open Scope ring_scope.
 Inductive claim_evidence :=
   | OfPencil of solution_claim
   | OfMotion of zero_claim
-  | OfZeroBox of seq nat & enclosed_claim.
+  | OfZeroBox of enclosed_claim.
 
 (* Claims that root leaves refer to; the cover; and beside each region that its tree leaves open a
    box with zero reaction, a support leaf, or nothing. *)
@@ -87,9 +87,10 @@ Definition claim_answer (Q : pencil) (c : claim_evidence) : option asserted :=
   | SystemProblem s u, OfMotion c =>
       if check_zero (ZeroSystem s [::]) u c then Some (asserted_motion c) else None
   | ZeroProblem z u, OfMotion c => if check_zero z u c then Some (asserted_motion c) else None
-  | ZeroProblem z u, OfZeroBox support c =>
-      if check_zero_enclosed z u support c
-      then Some (Asserted (box_from c) (box_to c) support (resting_halves z support)) else None
+  | ZeroProblem z u, OfZeroBox c =>
+      if check_zero_enclosed z u c
+      then Some (Asserted (box_from c) (box_to c) (box_support c)
+             (resting_halves z (box_support c))) else None
   | _, _ => None
   end.
 
@@ -142,7 +143,7 @@ Definition answer_cover Q lo hi (e : cover_evidence) : answered :=
                (SolutionSet ys (families c lo hi ls) (still_open c lo hi ls)))
       else EvidenceRefused
   | CoverAtValue claims c ls =>
-      if (lo == hi) && check_at_value Q lo claims c ls
+      if same_point lo hi && check_at_value Q lo claims c ls
       then told (all_solutions (point_pencil Q lo) claims c lo lo ls)
              (fun ys => AllInWindow lo lo
                (SolutionSet ys (families c lo lo ls) (still_open c lo lo ls)))
@@ -334,7 +335,7 @@ Lemma claim_answer_sound p c a lo hi : needs_wellformed p ->
   claim_answer p (pencil_for_claims p) c = Some a -> in_window lo hi a ->
   asserted_holds (sem p) lo hi a.
 Proof.
-case: p => [Q|s u|z u|m] /= wf; case: c => [k|c|support c] //=; case: ifP => // ok [<-] inside.
+case: p => [Q|s u|z u|m] /= wf; case: c => [k|c|c] //=; case: ifP => // ok [<-] inside.
 - exact: pencil_claim.
 - exact: system_claim_holds.
 - have [t [bt [t0 /no_zero_particles sat] sup _]] := motion_claim_sound ok.
@@ -346,7 +347,7 @@ case: p => [Q|s u|z u|m] /= wf; case: c => [k|c|support c] //=; case: ifP => // 
   have [t [bt sat sup sup_z]] := motion_claim_sound ok.
   exists t; eexists; split; [exact: sat | exact: (within_between inside bt) | exact: bt |].
   exact: zero_signs.
-have wf_z : zero_wellformed z u by case/and5P: ok.
+have wf_z : zero_wellformed z u by case/and4P: ok.
 have [t [v [bt sat sup sup_z _]]] := zero_enclosed_sound R ok.
 exists t, v; split=> //; first exact: (within_between inside bt).
 exact: zero_signs.

@@ -44,13 +44,12 @@ Import Order.Theory GRing.Theory Num.Theory.
 Delimit Scope Z_scope with Z.
 Local Open Scope ring_scope.
 
-(* A claim with the support [box_names] that stands beside a region. *)
+(* A claim that stands beside a region. *)
 Record pinned_box := PinnedBox {
   box_interval : interval;
   near_anchor : nat;  (* where the free rows depend on the unknown: its anchor, *)
   near_grain : Z;     (* and the grain of its local pencil *)
   box_pinning : pinning;
-  box_names : seq nat;
   box_claim : enclosed_claim }.
 
 Section Checker.
@@ -63,7 +62,8 @@ Notation nz := (size (zero_particles z)).
 
 (* The solution of an enclosed claim. *)
 Definition known_box (b : pinned_box) :=
-  Known (box_from (box_claim b)) (box_to (box_claim b)) (positions Q (box_names b)) [::].
+  Known (box_from (box_claim b)) (box_to (box_claim b))
+    (positions Q (box_support (box_claim b))) [::].
 
 Definition pinned_yield (r : region) (b : pinned_box) :=
   Yield (extended r (box_interval b)) (box_from (box_claim b)) (box_to (box_claim b)).
@@ -80,7 +80,7 @@ Definition check_pinned (alone : region -> pinned_box -> bool) (r : region) (b :
   let r' := extended r (box_interval b) in
   [&& ordered (lower r) (upper r), reaches r (box_interval b), alone r' b,
       supports_region (enclosed_order ns) r' (known_box b) &
-      check_zero_enclosed z u (box_names b) (box_claim b)].
+      check_zero_enclosed z u (box_claim b)].
 
 Section Beside.
 
@@ -243,12 +243,12 @@ End Sound.
 
 (* The solution of an enclosed claim that stands beside a region. *)
 Lemma zero_box_known (R : rcfType) z u b : zero_wellformed z u ->
-  check_zero_enclosed z u (box_names b) (box_claim b) ->
+  check_zero_enclosed z u (box_claim b) ->
   exists (t : R) x, known_solution (zero_pencil z u) (known_box z u b) t x.
 Proof.
 move=> wf ok; have [t [v [bt sat slips zeros _]]] := zero_enclosed_sound R ok.
-case/and5P: ok => _ /allP in_range _ _ _; exists t, (zero_variables_of z v).
-have names : all (fun i => i \in slip (zero_pencil z u)) (box_names b).
+case/and4P: ok => _ /allP in_range _ _; exists t, (zero_variables_of z v).
+have names : all (fun i => i \in slip (zero_pencil z u)) (box_support (box_claim b)).
   apply/allP=> i /in_range /andP[ge_i lt_i].
   by rewrite mem_filter !mem_iota !add0n -leqNgt ge_i.
 split=> // [|k lt_k]; first exact: zero_pencil_solution.

@@ -54,11 +54,12 @@ Definition support_pencil :=
   Pencil (order Q) [seq given [:: (head 0%N support, 1)] row_a i | i <- iota 0 (order Q)]
     [seq given [::] row_b i | i <- iota 0 (order Q)] (free Q).
 
-Definition check_zero_enclosed (c : enclosed_claim) :=
-  [&& zero_wellformed z u, zero_variables z support, all one_half (iota 0 nz),
-      box_support c == support & check_enclosed_claim support_pencil c].
-
 End Checker.
+
+Definition check_zero_enclosed z u c := let support := box_support c in
+  [&& zero_wellformed z u, zero_variables z support,
+      all (one_half z support) (iota 0 (size (zero_particles z))) &
+      check_enclosed_claim (support_pencil z u support) c].
 
 Section Statements.
 
@@ -303,20 +304,20 @@ Qed.
 
 End Sound.
 
-Theorem zero_enclosed_sound (R : rcfType) z u support c : check_zero_enclosed z u support c ->
-  exists (t : R) v,
+Theorem zero_enclosed_sound (R : rcfType) z u c (support := box_support c) :
+  check_zero_enclosed z u c -> exists (t : R) v,
   [/\ between t (box_from c) (box_to c), satisfies_9z z u t v,
       has_support (without_zero z) u support (resting_halves z support) t v,
       has_zero_support z u support (resting_halves z support) t v &
       forall t' v', satisfies_9z z u t' v' -> between t' (box_from c) (box_to c) ->
         moves_on z support v' -> t' = t /\ same_motion (without_zero z) v v'].
 Proof.
-case/and5P=> wf in_range halves /eqP support_eq claim.
+case/and4P=> wf in_range halves claim.
 have in_slip i : i \in support -> i \in slip (zero_pencil z u).
   move/allP: in_range => in_range /in_range/andP[ge_i lt_i].
   by rewrite mem_filter !mem_iota !add0n -leqNgt ge_i.
 have [t [x [bt sol on off uniq]]] := enclosed_claim_sound R claim.
-rewrite support_eq in on off uniq; exists t, (zero_motion z x); split=> //.
+exists t, (zero_motion z x); split=> //.
 - apply: (zero_pencil_motion wf); first exact: (found_solution wf halves in_slip sol on).
   exact: (found_split wf halves in_slip sol on off).
 - exact: (found_support wf halves in_slip sol on off).

@@ -1436,7 +1436,7 @@ let opening_claim (pencil : Kernel.pencil) slip (zero : Kernel.zero_system) unkn
   match zero_enclosed_of zero unknown box with
   | None -> no_witness "%s" opening
   | Some claim ->
-    names, claim, { Kernel.known_from = claim.box_from; known_to = claim.box_to;
+    claim, { Kernel.known_from = claim.box_from; known_to = claim.box_to;
                     known_support = j_list; known_biactive = [] }
 
 let pinned_box_tree c zero unknown (region : Kernel.region) (r : root) undecided =
@@ -1450,13 +1450,13 @@ let pinned_box_tree c zero unknown (region : Kernel.region) (r : root) undecided
       let v = Array.of_list v in
       List.map (fun k -> Q.make v.(k) (two_to 52)) j_list
     | None -> no_witness "a root" in
-  let box_names, box_claim, known =
+  let box_claim, known =
     opening_claim c.pencil c.slip zero unknown j_list components r.interval in
   let found = ref None in
   let attempt region = match claimed_leaf p f region r 0 known with
     | Some (Kernel.Claimed (box_interval, box_pinning, _)) ->
       found := Some { Kernel.box_interval; near_anchor = 0; near_grain = Z.zero; box_pinning;
-                      box_names; box_claim };
+                      box_claim };
       Some Kernel.Undecided
     | _ -> None in
   let tree = narrow_tree ~absent:(absent_tree p f 12) ~weight:1 opening 12 attempt
@@ -1472,12 +1472,12 @@ let pinned_about_tree v (piece : piece) zero unknown (region : Kernel.region) (r
       (List.init (Array.length v.slip_list) Fun.id) in
   let r = { r with pivot = position v.slip_list r.pivot } in
   let components = List.map (fun _ -> Q.one) j_list in
-  let box_names, box_claim, known =
+  let box_claim, known =
     opening_claim v.whole_pencil v.slip_list zero unknown j_list components r.interval in
   let found = ref None in
   let attempt region = match by_claim v n r 0 known region with
     | Some (Kernel.OfClaim (near_anchor, near_grain, box_interval, box_pinning, _)) ->
-      found := Some { Kernel.box_interval; near_anchor; near_grain; box_pinning; box_names;
+      found := Some { Kernel.box_interval; near_anchor; near_grain; box_pinning;
                       box_claim };
       Some Kernel.LeftOpen
     | _ -> None in

@@ -192,7 +192,7 @@ let zero_box (certificate : Certificate.t) (zero : Kernel.zero_system) unknown
     (e : Certificate.enclosed) =
   let value = value_of_box e (List.length zero.without_zero.free_dofs) in
   in_window certificate value;
-  Kernel.OfZeroBox (e.box_support, box_of value (Elaborate.zero_enclosed_of zero unknown e))
+  Kernel.OfZeroBox (box_of value (Elaborate.zero_enclosed_of zero unknown e))
 
 (* The points of an mceip-mcp-solution/1 (spec/certificates.md, 5.17). *)
 let read_points path =

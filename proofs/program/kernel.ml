@@ -42,6 +42,11 @@ let pred n =
 
 
 
+(** val eqb : bool -> bool -> bool **)
+
+let eqb b1 b2 =
+  if b1 then b2 else if b2 then false else true
+
 type reflect =
 | ReflectT
 | ReflectF
@@ -146,11 +151,6 @@ let idP = function
 | true -> ReflectT
 | false -> ReflectF
 
-(** val andP : bool -> bool -> reflect **)
-
-let andP b1 b2 =
-  if b1 then if b2 then ReflectT else ReflectF else ReflectF
-
 type 't pred0 = 't -> bool
 
 type 't predType =
@@ -223,84 +223,11 @@ module Equality =
 let eq_op t =
   (Equality.coq_class t).Equality.op
 
-(** val eqP : Equality.coq_type -> Equality.sort Equality.axiom **)
-
-let eqP t =
-  let _evar_0_ = fun _ a -> a in
-  let { Equality.op = op0; Equality.mixin_of__1 = a } = t in _evar_0_ op0 a
-
-(** val eqb : bool -> bool -> bool **)
-
-let eqb b =
-  addb (negb b)
-
-(** val eqbP : bool Equality.axiom **)
-
-let eqbP __top_assumption_ =
-  let _evar_0_ = fun __top_assumption_0 ->
-    let _evar_0_ = ReflectT in
-    let _evar_0_0 = ReflectF in
-    if __top_assumption_0 then _evar_0_ else _evar_0_0
-  in
-  let _evar_0_0 = fun __top_assumption_0 ->
-    let _evar_0_0 = ReflectF in
-    let _evar_0_1 = ReflectT in
-    if __top_assumption_0 then _evar_0_0 else _evar_0_1
-  in
-  if __top_assumption_ then _evar_0_ else _evar_0_0
-
-(** val bool_eqMixin : bool Equality.mixin_of **)
-
-let bool_eqMixin =
-  { Equality.op = eqb; Equality.mixin_of__1 = eqbP }
-
-(** val bool_eqType : Equality.coq_type **)
-
-let bool_eqType =
-  Obj.magic bool_eqMixin
-
 (** val pred1 :
     Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred **)
 
 let pred1 t a1 =
   simplPred (fun x -> eq_op t x a1)
-
-(** val pair_eq :
-    Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
-    rel **)
-
-let pair_eq t1 t2 u v =
-  (&&) (eq_op t1 (fst u) (fst v)) (eq_op t2 (snd u) (snd v))
-
-(** val pair_eqP :
-    Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
-    Equality.axiom **)
-
-let pair_eqP t1 t2 __top_assumption_ =
-  let _evar_0_ = fun x1 x2 __top_assumption_0 ->
-    let _evar_0_ = fun y1 y2 ->
-      iffP
-        ((&&) (eq_op t1 (fst (x1, x2)) (fst (y1, y2)))
-          (eq_op t2 (snd (x1, x2)) (snd (y1, y2))))
-        (andP (eq_op t1 (fst (x1, x2)) (fst (y1, y2)))
-          (eq_op t2 (snd (x1, x2)) (snd (y1, y2))))
-    in
-    let (a, b) = __top_assumption_0 in _evar_0_ a b
-  in
-  let (a, b) = __top_assumption_ in _evar_0_ a b
-
-(** val prod_eqMixin :
-    Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
-    Equality.mixin_of **)
-
-let prod_eqMixin t1 t2 =
-  { Equality.op = (pair_eq t1 t2); Equality.mixin_of__1 = (pair_eqP t1 t2) }
-
-(** val prod_eqType :
-    Equality.coq_type -> Equality.coq_type -> Equality.coq_type **)
-
-let prod_eqType t1 t2 =
-  Obj.magic prod_eqMixin t1 t2
 
 (** val eqnP : int Equality.axiom **)
 
@@ -478,59 +405,6 @@ let rec drop n s = match s with
      (fun n' -> drop n' s')
      n)
 
-(** val eqseq :
-    Equality.coq_type -> Equality.sort list -> Equality.sort list -> bool **)
-
-let rec eqseq t s1 s2 =
-  match s1 with
-  | [] -> (match s2 with
-           | [] -> true
-           | _ :: _ -> false)
-  | x1 :: s1' ->
-    (match s2 with
-     | [] -> false
-     | x2 :: s2' -> (&&) (eq_op t x1 x2) (eqseq t s1' s2'))
-
-(** val eqseqP : Equality.coq_type -> Equality.sort list Equality.axiom **)
-
-let eqseqP t _top_assumption_ =
-  let _evar_0_ = fun __top_assumption_ ->
-    let _evar_0_ = ReflectT in
-    let _evar_0_0 = fun _ _ -> ReflectF in
-    (match __top_assumption_ with
-     | [] -> _evar_0_
-     | a :: l -> _evar_0_0 a l)
-  in
-  let _evar_0_0 = fun x1 s1 iHs __top_assumption_ ->
-    let _evar_0_0 = ReflectF in
-    let _evar_0_1 = fun x2 s2 ->
-      let __top_assumption_0 = eqP t x1 x2 in
-      let _evar_0_1 = fun _ -> iffP (eqseq t s1 s2) (iHs s2) in
-      let _evar_0_2 = fun _ -> ReflectF in
-      (match __top_assumption_0 with
-       | ReflectT -> _evar_0_1 __
-       | ReflectF -> _evar_0_2 __)
-    in
-    (match __top_assumption_ with
-     | [] -> _evar_0_0
-     | a :: l -> _evar_0_1 a l)
-  in
-  let rec f = function
-  | [] -> _evar_0_
-  | y :: l0 -> _evar_0_0 y l0 (f l0)
-  in f _top_assumption_
-
-(** val seq_eqMixin :
-    Equality.coq_type -> Equality.sort list Equality.mixin_of **)
-
-let seq_eqMixin t =
-  { Equality.op = (eqseq t); Equality.mixin_of__1 = (eqseqP t) }
-
-(** val seq_eqType : Equality.coq_type -> Equality.coq_type **)
-
-let seq_eqType t =
-  Obj.magic seq_eqMixin t
-
 (** val mem_seq :
     Equality.coq_type -> Equality.sort list -> Equality.sort -> bool **)
 
@@ -604,20 +478,6 @@ let rec zip s t =
 let flatten s =
   foldr cat [] s
 
-module ZInstances =
- struct
-  (** val eqZP : Big_int_Z.big_int Equality.axiom **)
-
-  let eqZP x y =
-    iffP (Big_int_Z.eq_big_int x y) (idP (Big_int_Z.eq_big_int x y))
-
-  (** val coq_Z_eqType : Equality.coq_type **)
-
-  let coq_Z_eqType =
-    { Equality.op = (Obj.magic Big_int_Z.eq_big_int); Equality.mixin_of__1 =
-      (Obj.magic eqZP) }
- end
-
 type matrix = Big_int_Z.big_int list list
 
 (** val entry : matrix -> int -> int -> Big_int_Z.big_int **)
@@ -641,6 +501,12 @@ let zero =
 
 let infinity =
   (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int)
+
+(** val same_point : point -> point -> bool **)
+
+let same_point a b =
+  (&&) (Big_int_Z.eq_big_int (fst a) (fst b))
+    (Big_int_Z.eq_big_int (snd a) (snd b))
 
 type state =
 | Open
@@ -5112,9 +4978,7 @@ let pencil_at z0 e =
 (** val same_weights : zero_system -> whole -> whole -> bool **)
 
 let same_weights z0 a b =
-  (&&)
-    (eq_op bool_eqType (Obj.magic a.whole_negative)
-      (Obj.magic b.whole_negative))
+  (&&) (eqb a.whole_negative b.whole_negative)
     (all (fun i ->
       Big_int_Z.eq_big_int (nth Big_int_Z.unit_big_int a.whole_weights i)
         (nth Big_int_Z.unit_big_int b.whole_weights i))
@@ -5406,9 +5270,7 @@ let check_presence_piece inside0 start finish r w =
         (presence_edge (fst finish) (snd finish) r k w.presence_finish
           ((Natural.succ 0) :: ((Natural.succ (Natural.succ (Natural.succ
           0))) :: [])))
-        (negb
-          (eq_op bool_eqType (Obj.magic w.presence_start.regular_minus)
-            (Obj.magic w.presence_finish.regular_minus)))))
+        (addb w.presence_start.regular_minus w.presence_finish.regular_minus)))
 
 type presence_piece = { piece_end : point; piece_region : region;
                         piece_anchor : int; piece_grain : Big_int_Z.big_int;
@@ -5554,26 +5416,24 @@ let support_pencil z0 u support0 =
     (iota 0 (zero_pencil z0 u).order)); free = (zero_pencil z0 u).free }
 
 (** val check_zero_enclosed :
-    zero_system -> unknown -> int list -> enclosed_claim -> bool **)
+    zero_system -> unknown -> enclosed_claim -> bool **)
 
-let check_zero_enclosed z0 u support0 c =
+let check_zero_enclosed z0 u c =
+  let support0 = c.box_support in
   (&&) (zero_wellformed z0 u)
     ((&&) (zero_variables z0 support0)
       ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
-        ((&&)
-          (eq_op (seq_eqType nat_eqType) (Obj.magic c.box_support)
-            (Obj.magic support0))
-          (check_enclosed_claim (support_pencil z0 u support0) c))))
+        (check_enclosed_claim (support_pencil z0 u support0) c)))
 
 type pinned_box = { box_interval : interval; near_anchor : int;
                     near_grain : Big_int_Z.big_int; box_pinning : pinning;
-                    box_names : int list; box_claim : enclosed_claim }
+                    box_claim : enclosed_claim }
 
 (** val known_box : zero_system -> unknown -> pinned_box -> known **)
 
 let known_box z0 u b =
   { known_from = b.box_claim.box_from; known_to = b.box_claim.box_to;
-    known_support = (positions (zero_pencil z0 u) b.box_names);
+    known_support = (positions (zero_pencil z0 u) b.box_claim.box_support);
     known_biactive = [] }
 
 (** val pinned_yield : region -> pinned_box -> yield **)
@@ -5608,8 +5468,7 @@ let check_pinned z0 u alone r b =
       ((&&) (alone r' b)
         ((&&)
           (supports_region (enclosed_order (size (slip (zero_pencil z0 u))))
-            r' (known_box z0 u b))
-          (check_zero_enclosed z0 u b.box_names b.box_claim))))
+            r' (known_box z0 u b)) (check_zero_enclosed z0 u b.box_claim))))
 
 (** val pinned_yields :
     region list -> pinned_box option list -> yield list **)
@@ -5733,13 +5592,8 @@ let check_at_value q e claims c ls =
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd e))
     ((&&) (check_families (point_pencil q e) claims c e e ls)
       (all (fun f ->
-        (&&)
-          (eq_op
-            (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
-            (Obj.magic (fst f).lower) (Obj.magic e))
-          (eq_op
-            (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
-            (Obj.magic (fst f).upper) (Obj.magic e))) (families c e e ls)))
+        (&&) (same_point (fst f).lower e) (same_point (fst f).upper e))
+        (families c e e ls)))
 
 (** val zero_row : sparse_row -> bool **)
 
@@ -6367,7 +6221,7 @@ let check_given_rates c b lo hi w low high =
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of zero_claim
-| OfZeroBox of int list * enclosed_claim
+| OfZeroBox of enclosed_claim
 
 type cover_evidence =
 | CoverInWindow of solution_claim list * cover * pinned_box option list
@@ -6429,17 +6283,17 @@ let claim_answer p q c =
        if check_zero { without_zero = s; zero_particles = [] } u c0
        then Some (asserted_motion c0)
        else None
-     | OfZeroBox (_, _) -> None)
+     | OfZeroBox _ -> None)
   | ZeroProblem (z0, u) ->
     (match c with
      | OfPencil _ -> None
      | OfMotion c0 ->
        if check_zero z0 u c0 then Some (asserted_motion c0) else None
-     | OfZeroBox (support0, c0) ->
-       if check_zero_enclosed z0 u support0 c0
+     | OfZeroBox c0 ->
+       if check_zero_enclosed z0 u c0
        then Some { asserted_from = c0.box_from; asserted_to = c0.box_to;
-              asserted_support = support0; asserted_biactive =
-              (resting_halves z0 support0) }
+              asserted_support = c0.box_support; asserted_biactive =
+              (resting_halves z0 c0.box_support) }
        else None)
   | PlainProblem _ -> None
 
@@ -6504,9 +6358,7 @@ let answer_cover q lo hi = function
          open_regions = (still_open c lo hi ls) }))
   else EvidenceRefused
 | CoverAtValue (claims, c, ls) ->
-  if (&&)
-       (eq_op (prod_eqType ZInstances.coq_Z_eqType ZInstances.coq_Z_eqType)
-         (Obj.magic lo) (Obj.magic hi)) (check_at_value q lo claims c ls)
+  if (&&) (same_point lo hi) (check_at_value q lo claims c ls)
   then told (all_solutions (point_pencil q lo) claims c lo lo ls) (fun ys ->
          AllInWindow (lo, lo, { solutions_in = ys; families_of_set =
          (families c lo lo ls); open_regions = (still_open c lo lo ls) }))

@@ -22,6 +22,8 @@ val pred : int -> int
 
 
 
+val eqb : bool -> bool -> bool
+
 type reflect =
 | ReflectT
 | ReflectF
@@ -67,8 +69,6 @@ val isSome : 'a1 option -> bool
 val iffP : bool -> reflect -> reflect
 
 val idP : bool -> reflect
-
-val andP : bool -> bool -> reflect
 
 type 't pred0 = 't -> bool
 
@@ -118,31 +118,7 @@ module Equality :
 
 val eq_op : Equality.coq_type -> Equality.sort rel
 
-val eqP : Equality.coq_type -> Equality.sort Equality.axiom
-
-val eqb : bool -> bool -> bool
-
-val eqbP : bool Equality.axiom
-
-val bool_eqMixin : bool Equality.mixin_of
-
-val bool_eqType : Equality.coq_type
-
 val pred1 : Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred
-
-val pair_eq :
-  Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
-  rel
-
-val pair_eqP :
-  Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
-  Equality.axiom
-
-val prod_eqMixin :
-  Equality.coq_type -> Equality.coq_type -> (Equality.sort * Equality.sort)
-  Equality.mixin_of
-
-val prod_eqType : Equality.coq_type -> Equality.coq_type -> Equality.coq_type
 
 val eqnP : int Equality.axiom
 
@@ -200,15 +176,6 @@ val all : 'a1 pred0 -> 'a1 list -> bool
 
 val drop : int -> 'a1 list -> 'a1 list
 
-val eqseq :
-  Equality.coq_type -> Equality.sort list -> Equality.sort list -> bool
-
-val eqseqP : Equality.coq_type -> Equality.sort list Equality.axiom
-
-val seq_eqMixin : Equality.coq_type -> Equality.sort list Equality.mixin_of
-
-val seq_eqType : Equality.coq_type -> Equality.coq_type
-
 val mem_seq : Equality.coq_type -> Equality.sort list -> Equality.sort -> bool
 
 type seq_eqclass = Equality.sort list
@@ -233,13 +200,6 @@ val zip : 'a1 list -> 'a2 list -> ('a1 * 'a2) list
 
 val flatten : 'a1 list list -> 'a1 list
 
-module ZInstances :
- sig
-  val eqZP : Big_int_Z.big_int Equality.axiom
-
-  val coq_Z_eqType : Equality.coq_type
- end
-
 type matrix = Big_int_Z.big_int list list
 
 val entry : matrix -> int -> int -> Big_int_Z.big_int
@@ -251,6 +211,8 @@ type point = Big_int_Z.big_int * Big_int_Z.big_int
 val zero : point
 
 val infinity : point
+
+val same_point : point -> point -> bool
 
 type state =
 | Open
@@ -1808,12 +1770,11 @@ val resting_halves : zero_system -> int list -> int list
 
 val support_pencil : zero_system -> unknown -> int list -> pencil
 
-val check_zero_enclosed :
-  zero_system -> unknown -> int list -> enclosed_claim -> bool
+val check_zero_enclosed : zero_system -> unknown -> enclosed_claim -> bool
 
 type pinned_box = { box_interval : interval; near_anchor : int;
                     near_grain : Big_int_Z.big_int; box_pinning : pinning;
-                    box_names : int list; box_claim : enclosed_claim }
+                    box_claim : enclosed_claim }
 
 val known_box : zero_system -> unknown -> pinned_box -> known
 
@@ -2111,7 +2072,7 @@ val check_given_rates :
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of zero_claim
-| OfZeroBox of int list * enclosed_claim
+| OfZeroBox of enclosed_claim
 
 type cover_evidence =
 | CoverInWindow of solution_claim list * cover * pinned_box option list
