@@ -54,6 +54,8 @@ Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
 Extraction Inline Condensation.stiffness_bound.
 
 Set Extraction AccessOpaque.
+(* Lines of about the length of the other files. *)
+Set Printing Width 96.
 
 Extraction "kernel.ml"
   answer integral_answer scaled slips slipping with_zero long_normal complementarity zero_system_of

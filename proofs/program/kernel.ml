@@ -53,8 +53,7 @@ type reflect =
 
 module Pos =
  struct
-  (** val compare_cont :
-      comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
+  (** val compare_cont : comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison **)
 
   let rec compare_cont = (fun c x y -> let s = Big_int_Z.compare_big_int x y in
   if s = 0 then c else if s < 0 then Lt else Gt)
@@ -86,8 +85,7 @@ module Z =
     | Lt -> true
     | _ -> false
 
-  (** val div :
-      Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+  (** val div : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
   let div = Big_int_Z.(fun x y ->
   match sign_big_int y with
@@ -115,8 +113,7 @@ module Option =
     bind (fun x -> Some (f x))
  end
 
-type ('aT, 'rT) simpl_fun =
-  'aT -> 'rT
+type ('aT, 'rT) simpl_fun = 'aT -> 'rT
   (* singleton inductive, whose constructor was SimplFun *)
 
 (** val fun_of_simpl : ('a1, 'a2) simpl_fun -> 'a1 -> 'a2 **)
@@ -153,8 +150,7 @@ let idP = function
 
 type 't pred0 = 't -> bool
 
-type 't predType =
-  __ -> 't pred0
+type 't predType = __ -> 't pred0
   (* singleton inductive, whose constructor was PredType *)
 
 type 't pred_sort = __
@@ -176,8 +172,7 @@ module PredOfSimpl =
 
 type 't rel = 't -> 't pred0
 
-type 't mem_pred =
-  't pred0
+type 't mem_pred = 't pred0
   (* singleton inductive, whose constructor was Mem *)
 
 (** val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort **)
@@ -206,8 +201,7 @@ module Equality =
   let op m =
     m.op
 
-  type coq_type =
-    __ mixin_of
+  type coq_type = __ mixin_of
     (* singleton inductive, whose constructor was Pack *)
 
   type sort = __
@@ -223,8 +217,7 @@ module Equality =
 let eq_op t =
   (Equality.coq_class t).Equality.op
 
-(** val pred1 :
-    Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred **)
+(** val pred1 : Equality.coq_type -> Equality.sort -> Equality.sort simpl_pred **)
 
 let pred1 t a1 =
   simplPred (fun x -> eq_op t x a1)
@@ -232,14 +225,12 @@ let pred1 t a1 =
 (** val eqnP : int Equality.axiom **)
 
 let eqnP n m =
-  iffP ((fun (a : int) (b : int) -> a = b) n m)
-    (idP ((fun (a : int) (b : int) -> a = b) n m))
+  iffP ((fun (a : int) (b : int) -> a = b) n m) (idP ((fun (a : int) (b : int) -> a = b) n m))
 
 (** val nat_eqMixin : int Equality.mixin_of **)
 
 let nat_eqMixin =
-  { Equality.op = (fun (a : int) (b : int) -> a = b); Equality.mixin_of__1 =
-    eqnP }
+  { Equality.op = (fun (a : int) (b : int) -> a = b); Equality.mixin_of__1 = eqnP }
 
 (** val nat_eqType : Equality.coq_type **)
 
@@ -405,8 +396,7 @@ let rec drop n s = match s with
      (fun n' -> drop n' s')
      n)
 
-(** val mem_seq :
-    Equality.coq_type -> Equality.sort list -> Equality.sort -> bool **)
+(** val mem_seq : Equality.coq_type -> Equality.sort list -> Equality.sort -> bool **)
 
 let rec mem_seq t = function
 | [] -> (fun _ -> false)
@@ -414,8 +404,7 @@ let rec mem_seq t = function
 
 type seq_eqclass = Equality.sort list
 
-(** val pred_of_seq :
-    Equality.coq_type -> seq_eqclass -> Equality.sort pred_sort **)
+(** val pred_of_seq : Equality.coq_type -> seq_eqclass -> Equality.sort pred_sort **)
 
 let pred_of_seq t s =
   Obj.magic mem_seq t s
@@ -429,11 +418,9 @@ let seq_predType t =
 
 let rec uniq t = function
 | [] -> true
-| x :: s' ->
-  (&&) (negb (in_mem x (mem (seq_predType t) (Obj.magic s')))) (uniq t s')
+| x :: s' -> (&&) (negb (in_mem x (mem (seq_predType t) (Obj.magic s')))) (uniq t s')
 
-(** val index :
-    Equality.coq_type -> Equality.sort -> Equality.sort list -> int **)
+(** val index : Equality.coq_type -> Equality.sort -> Equality.sort list -> int **)
 
 let index t x =
   find (PredOfSimpl.coerce (pred1 t x))
@@ -505,8 +492,7 @@ let infinity =
 (** val same_point : point -> point -> bool **)
 
 let same_point a b =
-  (&&) (Big_int_Z.eq_big_int (fst a) (fst b))
-    (Big_int_Z.eq_big_int (snd a) (snd b))
+  (&&) (Big_int_Z.eq_big_int (fst a) (fst b)) (Big_int_Z.eq_big_int (snd a) (snd b))
 
 type state =
 | Open
@@ -554,9 +540,7 @@ let ordered lo hi =
     ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
       ((&&) (Z.leb Big_int_Z.zero_big_int (fst hi))
         ((&&) (Z.leb Big_int_Z.zero_big_int (snd hi))
-          ((&&)
-            (Z.ltb Big_int_Z.zero_big_int
-              (Big_int_Z.add_big_int (fst hi) (snd hi)))
+          ((&&) (Z.ltb Big_int_Z.zero_big_int (Big_int_Z.add_big_int (fst hi) (snd hi)))
             (Z.leb (Big_int_Z.mult_big_int (fst lo) (snd hi))
               (Big_int_Z.mult_big_int (fst hi) (snd lo)))))))
 
@@ -567,8 +551,8 @@ type 'leaf tree =
 | Leaf of 'leaf
 
 (** val check_boxes :
-    int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 tree -> region ->
-    point -> point -> bool **)
+    int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 tree -> region -> point -> point ->
+    bool **)
 
 let rec check_boxes n evidence0 tr r low high =
   match tr with
@@ -580,18 +564,14 @@ let rec check_boxes n evidence0 tr r low high =
   | CutFriction (m, tr1, tr2) ->
     (&&) (ordered low m)
       ((&&) (ordered m high)
-        ((&&) (check_boxes n evidence0 tr1 r low m)
-          (check_boxes n evidence0 tr2 r m high)))
+        ((&&) (check_boxes n evidence0 tr1 r low m) (check_boxes n evidence0 tr2 r m high)))
   | Branch (i, tr1, tr2) ->
     (&&) (leq (Natural.succ i) n)
       ((&&) (check_boxes n evidence0 tr1 (decide i Resting r) low high)
         (check_boxes n evidence0 tr2 (decide i Moving r) low high))
-  | Leaf l ->
-    (&&) (ordered r.lower r.upper)
-      ((&&) (ordered low high) (evidence0 r low high l))
+  | Leaf l -> (&&) (ordered r.lower r.upper) ((&&) (ordered low high) (evidence0 r low high l))
 
-(** val check_tree :
-    int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool **)
+(** val check_tree : int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool **)
 
 let check_tree n evidence0 tr r =
   check_boxes n (fun r' _ _ -> evidence0 r') tr r zero zero
@@ -600,15 +580,14 @@ let check_tree n evidence0 tr r =
 
 let rec leaves tr r =
   match tr with
-  | Split (t, tr1, tr2) ->
-    cat (leaves tr1 (below t r)) (leaves tr2 (above t r))
+  | Split (t, tr1, tr2) -> cat (leaves tr1 (below t r)) (leaves tr2 (above t r))
   | CutFriction (_, tr1, tr2) -> cat (leaves tr1 r) (leaves tr2 r)
   | Branch (i, tr1, tr2) ->
     cat (leaves tr1 (decide i Resting r)) (leaves tr2 (decide i Moving r))
   | Leaf l -> (r, l) :: []
 
-type enclosed = { size_of : int; center_a : matrix; center_b : matrix;
-                  radius_a : matrix; radius_b : matrix }
+type enclosed = { size_of : int; center_a : matrix; center_b : matrix; radius_a : matrix;
+                  radius_b : matrix }
 
 (** val indices : enclosed -> int list **)
 
@@ -618,15 +597,13 @@ let indices p =
 (** val center : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
 
 let center p e i j =
-  Big_int_Z.add_big_int
-    (Big_int_Z.mult_big_int (snd e) (entry p.center_a i j))
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) (entry p.center_a i j))
     (Big_int_Z.mult_big_int (fst e) (entry p.center_b i j))
 
 (** val radius : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
 
 let radius p e i j =
-  Big_int_Z.add_big_int
-    (Big_int_Z.mult_big_int (snd e) (entry p.radius_a i j))
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) (entry p.radius_a i j))
     (Big_int_Z.mult_big_int (fst e) (entry p.radius_b i j))
 
 (** val column_bound :
@@ -635,52 +612,41 @@ let radius p e i j =
 let column_bound p w e j =
   sumZ (indices p) (fun i ->
     Big_int_Z.add_big_int
-      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w i)
-        (center p e i j))
-      (Big_int_Z.mult_big_int
-        (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int w i))
+      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w i) (center p e i j))
+      (Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int w i))
         (radius p e i j)))
 
-(** val strict_column :
-    enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
+(** val strict_column : enclosed -> region -> Big_int_Z.big_int list -> int -> bool **)
 
 let strict_column p r w j =
   (&&) (Z.ltb (column_bound p w r.lower j) Big_int_Z.zero_big_int)
     ((||) (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int)
       (Z.ltb (column_bound p w r.upper j) Big_int_Z.zero_big_int))
 
-(** val signs_of_weights :
-    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+(** val signs_of_weights : enclosed -> region -> Big_int_Z.big_int list -> bool **)
 
 let signs_of_weights p r w =
   all (fun i ->
     (||) (is_moving (state_of r i))
-      (Z.leb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int w i)))
-    (indices p)
+      (Z.leb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int w i))) (indices p)
 
-(** val columns_at_most_zero :
-    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+(** val columns_at_most_zero : enclosed -> region -> Big_int_Z.big_int list -> bool **)
 
 let columns_at_most_zero p r w =
   all (fun j ->
     (||) (is_resting (state_of r j))
       ((&&) (Z.leb (column_bound p w r.lower j) Big_int_Z.zero_big_int)
-        (Z.leb (column_bound p w r.upper j) Big_int_Z.zero_big_int)))
-    (indices p)
+        (Z.leb (column_bound p w r.upper j) Big_int_Z.zero_big_int))) (indices p)
 
-(** val every_column_strict :
-    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+(** val every_column_strict : enclosed -> region -> Big_int_Z.big_int list -> bool **)
 
 let every_column_strict p r w =
-  all (fun j -> (||) (is_resting (state_of r j)) (strict_column p r w j))
-    (indices p)
+  all (fun j -> (||) (is_resting (state_of r j)) (strict_column p r w j)) (indices p)
 
-(** val some_moving_column_strict :
-    enclosed -> region -> Big_int_Z.big_int list -> bool **)
+(** val some_moving_column_strict : enclosed -> region -> Big_int_Z.big_int list -> bool **)
 
 let some_moving_column_strict p r w =
-  has (fun j -> (&&) (is_moving (state_of r j)) (strict_column p r w j))
-    (indices p)
+  has (fun j -> (&&) (is_moving (state_of r j)) (strict_column p r w j)) (indices p)
 
 (** val farkas : enclosed -> region -> Big_int_Z.big_int list -> bool **)
 
@@ -695,23 +661,19 @@ let farkas p r w =
 let strict_in_both p p' r w j =
   (&&) (strict_column p r w j) (strict_column p' r w j)
 
-(** val box_farkas :
-    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool **)
+(** val box_farkas : enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool **)
 
 let box_farkas p p' r w =
   (&&) (signs_of_weights p r w)
     ((&&) (columns_at_most_zero p r w)
       ((&&) (columns_at_most_zero p' r w)
         ((||)
-          (all (fun j ->
-            (||) (is_resting (state_of r j)) (strict_in_both p p' r w j))
+          (all (fun j -> (||) (is_resting (state_of r j)) (strict_in_both p p' r w j))
             (indices p))
-          (has (fun j ->
-            (&&) (is_moving (state_of r j)) (strict_in_both p p' r w j))
+          (has (fun j -> (&&) (is_moving (state_of r j)) (strict_in_both p p' r w j))
             (indices p)))))
 
-(** val sum_from :
-    (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int **)
+(** val sum_from : (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int **)
 
 let rec sum_from f k = function
 | [] -> Big_int_Z.zero_big_int
@@ -730,15 +692,15 @@ let rec map_from f k = function
 | x :: l' -> (f k x) :: (map_from f (Natural.succ k) l')
 
 (** val remainder :
-    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
-    ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int **)
+    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) -> ('a1 * 'a2) ->
+    ('a1 * 'a2) -> Big_int_Z.big_int **)
 
 let remainder s product0 a b =
   Big_int_Z.sub_big_int (s (fst a) (fst b)) (product0 (snd a) (snd b))
 
 (** val off_diagonal :
-    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
-    ('a1 * 'a2) list -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int **)
+    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) -> ('a1 * 'a2) list
+    -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int **)
 
 let off_diagonal s product0 rows i a =
   sum_from (fun j b ->
@@ -747,20 +709,18 @@ let off_diagonal s product0 rows i a =
     else Big_int_Z.abs_big_int (remainder s product0 a b)) 0 rows
 
 (** val covered :
-    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
-    bool -> ('a1 * 'a2) list -> bool **)
+    ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) -> bool ->
+    ('a1 * 'a2) list -> bool **)
 
 let covered s product0 strict rows =
   all_from (fun i a ->
     if strict
-    then Z.ltb (off_diagonal s product0 rows (Obj.magic i) a)
-           (remainder s product0 a a)
-    else Z.leb (off_diagonal s product0 rows (Obj.magic i) a)
-           (remainder s product0 a a)) 0 rows
+    then Z.ltb (off_diagonal s product0 rows (Obj.magic i) a) (remainder s product0 a a)
+    else Z.leb (off_diagonal s product0 rows (Obj.magic i) a) (remainder s product0 a a)) 0 rows
 
 (** val weighted_dot :
-    Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int **)
+    Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int **)
 
 let rec weighted_dot w a b =
   match w with
@@ -772,12 +732,10 @@ let rec weighted_dot w a b =
        (match b with
         | [] -> Big_int_Z.zero_big_int
         | y :: b' ->
-          Big_int_Z.add_big_int
-            (Big_int_Z.mult_big_int u (Big_int_Z.mult_big_int x y))
+          Big_int_Z.add_big_int (Big_int_Z.mult_big_int u (Big_int_Z.mult_big_int x y))
             (weighted_dot w' a' b')))
 
-(** val dot :
-    Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+(** val dot : Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let rec dot a b =
   match a with
@@ -785,8 +743,7 @@ let rec dot a b =
   | x :: a' ->
     (match b with
      | [] -> Big_int_Z.zero_big_int
-     | y :: b' ->
-       Big_int_Z.add_big_int (Big_int_Z.mult_big_int x y) (dot a' b'))
+     | y :: b' -> Big_int_Z.add_big_int (Big_int_Z.mult_big_int x y) (dot a' b'))
 
 type late_row = int * Big_int_Z.big_int list
 
@@ -804,26 +761,21 @@ type factor = { weights : Big_int_Z.big_int list; factor_rows : matrix }
 let active p r =
   filter (fun i -> negb (is_resting (state_of r i))) (indices p)
 
-(** val symmetric_part :
-    enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int **)
+(** val symmetric_part : enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int **)
 
 let symmetric_part p negative0 e i j =
   Big_int_Z.sub_big_int
     (Big_int_Z.sub_big_int
       (if negative0
-       then Big_int_Z.sub_big_int (Big_int_Z.minus_big_int (center p e i j))
-              (center p e j i)
-       else Big_int_Z.add_big_int (center p e i j) (center p e j i))
-      (radius p e i j)) (radius p e j i)
+       then Big_int_Z.sub_big_int (Big_int_Z.minus_big_int (center p e i j)) (center p e j i)
+       else Big_int_Z.add_big_int (center p e i j) (center p e j i)) (radius p e i j))
+    (radius p e j i)
 
-(** val definite_end :
-    enclosed -> bool -> bool -> point -> region -> factor -> bool **)
+(** val definite_end : enclosed -> bool -> bool -> point -> region -> factor -> bool **)
 
 let definite_end p negative0 strict e r f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
-    ((&&)
-      (eq_op nat_eqType (Obj.magic size f.factor_rows)
-        (Obj.magic size (active p r)))
+    ((&&) (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic size (active p r)))
       (covered (symmetric_part p negative0 e) (weighted_dot f.weights) strict
         (zip (active p r) f.factor_rows)))
 
@@ -831,31 +783,24 @@ let definite_end p negative0 strict e r f =
 
 let definite p negative0 r low high =
   (&&) (definite_end p negative0 true r.lower r low)
-    (definite_end p negative0 (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-      r.upper r high)
+    (definite_end p negative0 (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) r.upper r high)
 
 (** val box_definite :
-    enclosed -> enclosed -> region -> bool -> (factor * factor) ->
-    (factor * factor) -> bool **)
+    enclosed -> enclosed -> region -> bool -> (factor * factor) -> (factor * factor) -> bool **)
 
 let box_definite p p' r negative0 f f' =
-  (&&) (definite p negative0 r (fst f) (snd f))
-    (definite p' negative0 r (fst f') (snd f'))
+  (&&) (definite p negative0 r (fst f) (snd f)) (definite p' negative0 r (fst f') (snd f'))
 
-type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
-             unit_high : Big_int_Z.big_int; width : Big_int_Z.big_int }
+type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
+             width : Big_int_Z.big_int }
 
-type uniqueness = { system_inverse : matrix;
-                    system_unit_low : Big_int_Z.big_int;
-                    system_unit_high : Big_int_Z.big_int;
-                    rate : Big_int_Z.big_int }
+type uniqueness = { system_inverse : matrix; system_unit_low : Big_int_Z.big_int;
+                    system_unit_high : Big_int_Z.big_int; rate : Big_int_Z.big_int }
 
 (** val unit_entry : Big_int_Z.big_int -> int -> int -> Big_int_Z.big_int **)
 
 let unit_entry u i j =
-  if eq_op nat_eqType (Obj.magic j) (Obj.magic i)
-  then u
-  else Big_int_Z.zero_big_int
+  if eq_op nat_eqType (Obj.magic j) (Obj.magic i) then u else Big_int_Z.zero_big_int
 
 (** val product_center :
     enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int **)
@@ -868,37 +813,33 @@ let product_center p l y e i j =
 
 let product_radius p l y e i j =
   sumZ l (fun l0 ->
-    Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (entry y i l0))
-      (radius p e l0 j))
+    Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (entry y i l0)) (radius p e l0 j))
 
 (** val defect :
-    enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int ->
-    Big_int_Z.big_int **)
+    enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int -> Big_int_Z.big_int **)
 
 let defect p k y u e i =
   sumZ k (fun j ->
     Big_int_Z.add_big_int
       (Big_int_Z.abs_big_int
-        (Big_int_Z.sub_big_int (unit_entry u i j)
-          (product_center p k y e i j))) (product_radius p k y e i j))
+        (Big_int_Z.sub_big_int (unit_entry u i j) (product_center p k y e i j)))
+      (product_radius p k y e i j))
 
 (** val residual :
-    enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
-    point -> int -> Big_int_Z.big_int **)
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix -> point -> int ->
+    Big_int_Z.big_int **)
 
 let residual p j k v y e i =
   Big_int_Z.add_big_int
     (Big_int_Z.abs_big_int
       (sumZ j (fun j0 ->
-        Big_int_Z.mult_big_int (product_center p k y e i j0)
-          (nth Big_int_Z.zero_big_int v j0))))
+        Big_int_Z.mult_big_int (product_center p k y e i j0) (nth Big_int_Z.zero_big_int v j0))))
     (sumZ j (fun j0 ->
       Big_int_Z.mult_big_int (product_radius p k y e i j0)
         (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int v j0))))
 
 (** val contracts :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-    Big_int_Z.big_int -> bool **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
 let contracts u eps rho r =
   (&&) (Z.ltb rho u)
@@ -906,63 +847,54 @@ let contracts u eps rho r =
       (Big_int_Z.mult_big_int u eps))
 
 (** val box_row :
-    enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
-    Big_int_Z.big_int -> Big_int_Z.big_int -> point -> int -> bool **)
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int
+    -> Big_int_Z.big_int -> point -> int -> bool **)
 
 let box_row p j k v y u eps e i =
   contracts u eps (defect p k y u e i) (residual p j k v y e i)
 
 (** val box_end :
-    enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
-    Big_int_Z.big_int -> point -> bool **)
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> box -> Big_int_Z.big_int ->
+    point -> bool **)
 
 let box_end p j k v b u e =
-  (&&) (Z.ltb Big_int_Z.zero_big_int u)
-    (all (box_row p j k v b.inverse u b.width e) k)
+  (&&) (Z.ltb Big_int_Z.zero_big_int u) (all (box_row p j k v b.inverse u b.width e) k)
 
 (** val check_box :
-    enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
-    point -> point -> bool **)
+    enclosed -> int list -> int list -> Big_int_Z.big_int list -> box -> point -> point -> bool **)
 
 let check_box p j k v b lo hi =
   (&&) (Z.leb Big_int_Z.zero_big_int b.width)
-    ((&&) (box_end p j k v b b.unit_low lo)
-      (box_end p j k v b b.unit_high hi))
+    ((&&) (box_end p j k v b b.unit_low lo) (box_end p j k v b b.unit_high hi))
 
 (** val sum_center :
-    int list -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) ->
-    Big_int_Z.big_int **)
+    int list -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int **)
 
 let sum_center j v f =
-  sumZ j (fun j0 ->
-    Big_int_Z.mult_big_int (f j0) (nth Big_int_Z.zero_big_int v j0))
+  sumZ j (fun j0 -> Big_int_Z.mult_big_int (f j0) (nth Big_int_Z.zero_big_int v j0))
 
 (** val sum_radius :
-    int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int)
-    -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+    int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) -> (int ->
+    Big_int_Z.big_int) -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let sum_radius j k v f r eps =
   sumZ j (fun j0 ->
     Big_int_Z.add_big_int
-      (Big_int_Z.mult_big_int (r j0)
-        (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int v j0)))
+      (Big_int_Z.mult_big_int (r j0) (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int v j0)))
       (if eq_op nat_eqType (Obj.magic j0) (Obj.magic k)
        then Big_int_Z.zero_big_int
        else Big_int_Z.mult_big_int
-              (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (f j0)) (r j0))
-              eps))
+              (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (f j0)) (r j0)) eps))
 
 (** val rate_center :
-    enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int ->
-    Big_int_Z.big_int **)
+    enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int -> Big_int_Z.big_int **)
 
 let rate_center p j v y i =
-  sumZ j (fun l ->
-    Big_int_Z.mult_big_int (entry y i l) (sum_center j v (entry p.center_b l)))
+  sumZ j (fun l -> Big_int_Z.mult_big_int (entry y i l) (sum_center j v (entry p.center_b l)))
 
 (** val rate_radius :
-    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-    Big_int_Z.big_int -> int -> Big_int_Z.big_int **)
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int -> int
+    -> Big_int_Z.big_int **)
 
 let rate_radius p j k v y eps i =
   sumZ j (fun l ->
@@ -970,9 +902,8 @@ let rate_radius p j k v y eps i =
       (sum_radius j k v (entry p.center_b l) (entry p.radius_b l) eps))
 
 (** val system_center :
-    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int ->
-    Equality.sort -> Big_int_Z.big_int **)
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort -> Big_int_Z.big_int **)
 
 let system_center p j k v y w e i j0 =
   if eq_op nat_eqType j0 (Obj.magic k)
@@ -980,9 +911,8 @@ let system_center p j k v y w e i j0 =
   else Big_int_Z.mult_big_int w (product_center p j y e i (Obj.magic j0))
 
 (** val system_radius :
-    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-    Big_int_Z.big_int -> Big_int_Z.big_int ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort ->
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort ->
     Big_int_Z.big_int **)
 
 let system_radius p j k v y w eps e i j0 =
@@ -991,9 +921,9 @@ let system_radius p j k v y w eps e i j0 =
   else Big_int_Z.mult_big_int w (product_radius p j y e i (Obj.magic j0))
 
 (** val unique_row :
-    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> bool **)
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int ->
+    bool **)
 
 let unique_row p j k v y u w eps e i =
   Z.ltb
@@ -1005,18 +935,16 @@ let unique_row p j k v y u w eps e i =
         (system_radius p j k v y w eps e i (Obj.magic j0)))) u
 
 (** val unique_end :
-    enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
-    Big_int_Z.big_int -> Big_int_Z.big_int ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness -> Big_int_Z.big_int ->
+    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
 
 let unique_end p j k v c u eps e =
   (&&) (Z.ltb Big_int_Z.zero_big_int u)
     (all (unique_row p j k v c.system_inverse u c.rate eps e) j)
 
 (** val check_unique :
-    enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
-    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
+    enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness -> Big_int_Z.big_int ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
 
 let check_unique p j k v c eps lo hi =
   (&&) (Z.ltb Big_int_Z.zero_big_int c.rate)
@@ -1024,9 +952,8 @@ let check_unique p j k v c eps lo hi =
       ((&&) (unique_end p j k v c c.system_unit_low eps lo)
         (unique_end p j k v c c.system_unit_high eps hi)))
 
-type isolation = { pivot : int; vector : Big_int_Z.big_int list;
-                   from_point : point; to_point : point; wide_box : box;
-                   narrow_box : box; unique : uniqueness;
+type isolation = { pivot : int; vector : Big_int_Z.big_int list; from_point : point;
+                   to_point : point; wide_box : box; narrow_box : box; unique : uniqueness;
                    left_vector : Big_int_Z.big_int list }
 
 type outcome =
@@ -1034,8 +961,8 @@ type outcome =
 | NegativeX of int
 | NegativeY of int
 
-type absence = { absent_pivot : int; absent_vector : Big_int_Z.big_int list;
-                 absent_box : box; absent_left : Big_int_Z.big_int list }
+type absence = { absent_pivot : int; absent_vector : Big_int_Z.big_int list; absent_box : 
+                 box; absent_left : Big_int_Z.big_int list }
 
 (** val moving : enclosed -> region -> int list **)
 
@@ -1050,79 +977,72 @@ let others p r k =
 (** val decided : enclosed -> region -> bool **)
 
 let decided p r =
-  all (fun i -> (||) (is_resting (state_of r i)) (is_moving (state_of r i)))
-    (indices p)
+  all (fun i -> (||) (is_resting (state_of r i)) (is_moving (state_of r i))) (indices p)
 
 (** val point_le : point -> point -> bool **)
 
 let point_le a b =
-  Z.leb (Big_int_Z.mult_big_int (fst a) (snd b))
-    (Big_int_Z.mult_big_int (fst b) (snd a))
+  Z.leb (Big_int_Z.mult_big_int (fst a) (snd b)) (Big_int_Z.mult_big_int (fst b) (snd a))
 
 (** val left_center :
-    enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-    point -> Big_int_Z.big_int **)
+    enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> point ->
+    Big_int_Z.big_int **)
 
 let left_center p r v u e =
   sum_center (moving p r) v (product_center p (moving p r) (u :: []) e 0)
 
 (** val left_radius :
-    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int -> point -> Big_int_Z.big_int **)
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int -> point -> Big_int_Z.big_int **)
 
 let left_radius p r k v u eps e =
   sum_radius (moving p r) k v (product_center p (moving p r) (u :: []) e 0)
     (product_radius p (moving p r) (u :: []) e 0) eps
 
 (** val left_negative :
-    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int -> point -> bool **)
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int -> point -> bool **)
 
 let left_negative p r k v u eps e =
-  Z.ltb
-    (Big_int_Z.add_big_int (left_center p r v u e)
-      (left_radius p r k v u eps e)) Big_int_Z.zero_big_int
+  Z.ltb (Big_int_Z.add_big_int (left_center p r v u e) (left_radius p r k v u eps e))
+    Big_int_Z.zero_big_int
 
 (** val left_positive :
-    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int -> point -> bool **)
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int -> point -> bool **)
 
 let left_positive p r k v u eps e =
   Z.ltb Big_int_Z.zero_big_int
-    (Big_int_Z.sub_big_int (left_center p r v u e)
-      (left_radius p r k v u eps e))
+    (Big_int_Z.sub_big_int (left_center p r v u e) (left_radius p r k v u eps e))
 
 (** val row_center :
-    enclosed -> region -> Big_int_Z.big_int list -> point -> int ->
-    Big_int_Z.big_int **)
+    enclosed -> region -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int **)
 
 let row_center p r v e i =
   sum_center (moving p r) v (center p e i)
 
 (** val row_radius :
-    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    -> point -> int -> Big_int_Z.big_int **)
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> int ->
+    Big_int_Z.big_int **)
 
 let row_radius p r k v eps e i =
   sum_radius (moving p r) k v (center p e i) (radius p e i) eps
 
 (** val row_positive :
-    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    -> point -> int -> bool **)
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> int ->
+    bool **)
 
 let row_positive p r k v eps e i =
   Z.ltb Big_int_Z.zero_big_int
-    (Big_int_Z.sub_big_int (row_center p r v e i)
-      (row_radius p r k v eps e i))
+    (Big_int_Z.sub_big_int (row_center p r v e i) (row_radius p r k v eps e i))
 
 (** val row_negative :
-    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    -> point -> int -> bool **)
+    enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> int ->
+    bool **)
 
 let row_negative p r k v eps e i =
-  Z.ltb
-    (Big_int_Z.add_big_int (row_center p r v e i)
-      (row_radius p r k v eps e i)) Big_int_Z.zero_big_int
+  Z.ltb (Big_int_Z.add_big_int (row_center p r v e i) (row_radius p r k v eps e i))
+    Big_int_Z.zero_big_int
 
 (** val interval_inside : region -> isolation -> bool **)
 
@@ -1134,41 +1054,29 @@ let interval_inside r c =
 (** val sign_change : enclosed -> region -> isolation -> bool **)
 
 let sign_change p r c =
-  (&&)
-    (Z.ltb Big_int_Z.zero_big_int
-      (nth Big_int_Z.zero_big_int c.left_vector c.pivot))
+  (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int c.left_vector c.pivot))
     ((||)
-      ((&&)
-        (left_negative p r c.pivot c.vector c.left_vector c.narrow_box.width
-          c.from_point)
-        (left_positive p r c.pivot c.vector c.left_vector c.narrow_box.width
-          c.to_point))
-      ((&&)
-        (left_positive p r c.pivot c.vector c.left_vector c.narrow_box.width
-          c.from_point)
-        (left_negative p r c.pivot c.vector c.left_vector c.narrow_box.width
-          c.to_point)))
+      ((&&) (left_negative p r c.pivot c.vector c.left_vector c.narrow_box.width c.from_point)
+        (left_positive p r c.pivot c.vector c.left_vector c.narrow_box.width c.to_point))
+      ((&&) (left_positive p r c.pivot c.vector c.left_vector c.narrow_box.width c.from_point)
+        (left_negative p r c.pivot c.vector c.left_vector c.narrow_box.width c.to_point)))
 
 (** val isolated : enclosed -> region -> isolation -> bool **)
 
 let isolated p r c =
   (&&) (decided p r)
-    ((&&)
-      (in_mem (Obj.magic c.pivot)
-        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
-      ((&&)
-        (Z.ltb Big_int_Z.zero_big_int
-          (nth Big_int_Z.zero_big_int c.vector c.pivot))
+    ((&&) (in_mem (Obj.magic c.pivot) (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int c.vector c.pivot))
         ((&&) (interval_inside r c)
           ((&&) (sign_change p r c)
             ((&&)
-              (check_box p (moving p r) (Obj.magic others p r c.pivot)
-                c.vector c.wide_box r.lower r.upper)
+              (check_box p (moving p r) (Obj.magic others p r c.pivot) c.vector c.wide_box
+                r.lower r.upper)
               ((&&)
-                (check_box p (moving p r) (Obj.magic others p r c.pivot)
-                  c.vector c.narrow_box c.from_point c.to_point)
-                (check_unique p (moving p r) c.pivot c.vector c.unique
-                  c.wide_box.width r.lower r.upper)))))))
+                (check_box p (moving p r) (Obj.magic others p r c.pivot) c.vector c.narrow_box
+                  c.from_point c.to_point)
+                (check_unique p (moving p r) c.pivot c.vector c.unique c.wide_box.width r.lower
+                  r.upper)))))))
 
 (** val both_ends : isolation -> (point -> bool) -> bool **)
 
@@ -1180,13 +1088,11 @@ let both_ends c f =
 let solution_signs p r c =
   (&&)
     (all (fun j ->
-      Z.ltb c.narrow_box.width
-        (nth Big_int_Z.zero_big_int c.vector (Obj.magic j)))
+      Z.ltb c.narrow_box.width (nth Big_int_Z.zero_big_int c.vector (Obj.magic j)))
       (others p r (Obj.magic c.pivot)))
     (all (fun i ->
       (||) (is_moving (state_of r i))
-        (both_ends c (fun e ->
-          row_positive p r c.pivot c.vector c.narrow_box.width e i)))
+        (both_ends c (fun e -> row_positive p r c.pivot c.vector c.narrow_box.width e i)))
       (indices p))
 
 (** val outcome_signs : enclosed -> region -> isolation -> outcome -> bool **)
@@ -1194,18 +1100,12 @@ let solution_signs p r c =
 let outcome_signs p r c = function
 | Solution -> solution_signs p r c
 | NegativeX i ->
-  (&&)
-    (in_mem (Obj.magic i)
-      (mem (seq_predType nat_eqType) (Obj.magic others p r c.pivot)))
-    (Z.ltb (nth Big_int_Z.zero_big_int c.vector i)
-      (Big_int_Z.minus_big_int c.narrow_box.width))
+  (&&) (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic others p r c.pivot)))
+    (Z.ltb (nth Big_int_Z.zero_big_int c.vector i) (Big_int_Z.minus_big_int c.narrow_box.width))
 | NegativeY i ->
-  (&&)
-    (in_mem (Obj.magic i)
-      (mem (seq_predType nat_eqType) (Obj.magic indices p)))
+  (&&) (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic indices p)))
     ((&&) (negb (is_moving (state_of r i)))
-      (both_ends c (fun e ->
-        row_negative p r c.pivot c.vector c.narrow_box.width e i)))
+      (both_ends c (fun e -> row_negative p r c.pivot c.vector c.narrow_box.width e i)))
 
 (** val check_root : enclosed -> region -> isolation -> outcome -> bool **)
 
@@ -1219,25 +1119,21 @@ let check_absent p r c =
   let v = c.absent_vector in
   let eps = c.absent_box.width in
   (&&) (decided p r)
-    ((&&)
-      (in_mem (Obj.magic k)
-        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+    ((&&) (in_mem (Obj.magic k) (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
       ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v k))
         ((&&)
-          (check_box p (moving p r) (Obj.magic others p r k) v c.absent_box
-            r.lower r.upper)
+          (check_box p (moving p r) (Obj.magic others p r k) v c.absent_box r.lower r.upper)
           ((||)
             ((&&) (left_positive p r k v c.absent_left eps r.lower)
               (left_positive p r k v c.absent_left eps r.upper))
             ((&&) (left_negative p r k v c.absent_left eps r.lower)
               (left_negative p r k v c.absent_left eps r.upper))))))
 
-type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list;
-                 pin_box : box; pin_unique : uniqueness; pin_reversed : 
-                 bool }
+type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list; pin_box : box;
+                 pin_unique : uniqueness; pin_reversed : bool }
 
-type known = { known_from : point; known_to : point;
-               known_support : int list; known_biactive : int list }
+type known = { known_from : point; known_to : point; known_support : int list;
+               known_biactive : int list }
 
 (** val swap : point -> point **)
 
@@ -1247,8 +1143,8 @@ let swap e =
 (** val reversed : enclosed -> enclosed **)
 
 let reversed p =
-  { size_of = p.size_of; center_a = p.center_b; center_b = p.center_a;
-    radius_a = p.radius_b; radius_b = p.radius_a }
+  { size_of = p.size_of; center_a = p.center_b; center_b = p.center_a; radius_a = p.radius_b;
+    radius_b = p.radius_a }
 
 (** val pinned : enclosed -> region -> pinning -> bool **)
 
@@ -1257,19 +1153,14 @@ let pinned p r c =
   let v = c.pin_vector in
   let eps = c.pin_box.width in
   (&&) (decided p r)
-    ((&&)
-      (in_mem (Obj.magic k)
-        (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+    ((&&) (in_mem (Obj.magic k) (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
       ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v k))
-        ((&&)
-          (check_box p (moving p r) (Obj.magic others p r k) v c.pin_box
-            r.lower r.upper)
+        ((&&) (check_box p (moving p r) (Obj.magic others p r k) v c.pin_box r.lower r.upper)
           (if c.pin_reversed
            then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
-                  (check_unique (reversed p) (moving p r) k v c.pin_unique
-                    eps (swap r.upper) (swap r.lower))
-           else check_unique p (moving p r) k v c.pin_unique eps r.lower
-                  r.upper))))
+                  (check_unique (reversed p) (moving p r) k v c.pin_unique eps (swap r.upper)
+                    (swap r.lower))
+           else check_unique p (moving p r) k v c.pin_unique eps r.lower r.upper))))
 
 (** val known_inside : region -> known -> bool **)
 
@@ -1288,29 +1179,25 @@ let check_claimed p r c q =
       ((&&) (known_inside r q)
         ((&&)
           (all (fun i ->
-            in_mem (Obj.magic i)
-              (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
+            in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
             q.known_support)
           (all (fun i ->
             in_mem (Obj.magic i)
-              (mem (seq_predType nat_eqType)
-                (Obj.magic cat q.known_support q.known_biactive)))
+              (mem (seq_predType nat_eqType) (Obj.magic cat q.known_support q.known_biactive)))
             (moving p r)))))
 
 (** val supports_region : enclosed -> region -> known -> bool **)
 
 let supports_region p r q =
   all (fun i ->
-    in_mem (Obj.magic i)
-      (mem (seq_predType nat_eqType) (Obj.magic q.known_support)))
+    in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.known_support)))
     (moving p r)
 
 (** val check_infinite : enclosed -> region -> pinning -> bool **)
 
 let check_infinite p r c =
   (&&) (pinned p r c)
-    ((&&) c.pin_reversed
-      (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
+    ((&&) c.pin_reversed (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
 
 type interval = point * point
 
@@ -1334,8 +1221,7 @@ let extended r h =
 (** val reaches : region -> interval -> bool **)
 
 let reaches r h =
-  (&&) (ordered (fst h) (snd h))
-    ((&&) (point_le (fst h) r.lower) (point_le r.upper (snd h)))
+  (&&) (ordered (fst h) (snd h)) ((&&) (point_le (fst h) r.lower) (point_le r.upper (snd h)))
 
 (** val window : point -> point -> region **)
 
@@ -1350,35 +1236,32 @@ let enclosed_order n =
 (** val nothing_known : known **)
 
 let nothing_known =
-  { known_from = zero; known_to = zero; known_support = []; known_biactive =
-    [] }
+  { known_from = zero; known_to = zero; known_support = []; known_biactive = [] }
 
 (** val known_at : known list -> int -> known **)
 
 let known_at solutions n =
   nth nothing_known solutions n
 
-(** val yielded :
-    enclosed -> known list -> (region * 'a1 leaf) -> yield option **)
+(** val yielded : enclosed -> known list -> (region * 'a1 leaf) -> yield option **)
 
 let yielded p solutions rl =
   match snd rl with
   | Root (h, c, o) ->
     (match o with
      | Solution ->
-       Some { yield_region = (extended (fst rl) h); yield_from =
-         c.from_point; yield_to = c.to_point }
+       Some { yield_region = (extended (fst rl) h); yield_from = c.from_point; yield_to =
+         c.to_point }
      | _ -> None)
   | Claimed (h, _, n) ->
     let q = known_at solutions n in
     if supports_region p (fst rl) q
-    then Some { yield_region = (extended (fst rl) h); yield_from =
-           q.known_from; yield_to = q.known_to }
+    then Some { yield_region = (extended (fst rl) h); yield_from = q.known_from; yield_to =
+           q.known_to }
     else None
   | _ -> None
 
-(** val yields :
-    enclosed -> known list -> 'a1 leaf tree -> region -> yield list **)
+(** val yields : enclosed -> known list -> 'a1 leaf tree -> region -> yield list **)
 
 let yields p solutions tr r =
   pmap (yielded p solutions) (leaves tr r)
@@ -1391,8 +1274,8 @@ let undecided tr r =
                   | _ -> None) (leaves tr r)
 
 (** val check_leaf :
-    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
-    Big_int_Z.big_int list -> bool) -> region -> 'a1 leaf -> bool **)
+    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int -> Big_int_Z.big_int
+    list -> bool) -> region -> 'a1 leaf -> bool **)
 
 let check_leaf p solutions check_whole0 check_limit0 r = function
 | Farkas w -> farkas p r w
@@ -1404,18 +1287,16 @@ let check_leaf p solutions check_whole0 check_limit0 r = function
     ((&&) (leq (Natural.succ n) (size solutions))
       (check_claimed p (extended r h) c (known_at solutions n)))
 | Infinite (h, c, x) ->
-  (&&) (reaches r h)
-    ((&&) (check_infinite p (extended r h) c) (check_limit0 r c.pin_pivot x))
+  (&&) (reaches r h) ((&&) (check_infinite p (extended r h) c) (check_limit0 r c.pin_pivot x))
 | Whole w -> check_whole0 r w
 | Undecided -> true
 
 (** val check_cover :
-    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
-    Big_int_Z.big_int list -> bool) -> 'a1 leaf tree -> point -> point -> bool **)
+    enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int -> Big_int_Z.big_int
+    list -> bool) -> 'a1 leaf tree -> point -> point -> bool **)
 
 let check_cover p solutions check_whole0 check_limit0 tr lo hi =
-  check_tree p.size_of (check_leaf p solutions check_whole0 check_limit0) tr
-    (window lo hi)
+  check_tree p.size_of (check_leaf p solutions check_whole0 check_limit0) tr (window lo hi)
 
 (** val same_state : state -> state -> bool **)
 
@@ -1458,8 +1339,7 @@ let all_same n r r' =
 let within inner0 outer =
   (&&) (ordered (fst inner0) (snd inner0))
     ((&&) (ordered (fst outer) (snd outer))
-      ((&&) (point_le (fst outer) (fst inner0))
-        (point_le (snd inner0) (snd outer))))
+      ((&&) (point_le (fst outer) (fst inner0)) (point_le (snd inner0) (snd outer))))
 
 (** val ends : region -> interval **)
 
@@ -1476,40 +1356,34 @@ let value_of y =
 let point_lt a b =
   (&&) (Z.leb Big_int_Z.zero_big_int (snd a))
     ((&&) (Z.leb Big_int_Z.zero_big_int (snd b))
-      (Z.ltb (Big_int_Z.mult_big_int (fst a) (snd b))
-        (Big_int_Z.mult_big_int (fst b) (snd a))))
+      (Z.ltb (Big_int_Z.mult_big_int (fst a) (snd b)) (Big_int_Z.mult_big_int (fst b) (snd a))))
 
 (** val same_solution : int -> yield -> yield -> bool **)
 
 let same_solution n f g =
   (&&)
     ((||) (within (value_of f) (ends g.yield_region))
-      (within (value_of g) (ends f.yield_region)))
-    (all_same n f.yield_region g.yield_region)
+      (within (value_of g) (ends f.yield_region))) (all_same n f.yield_region g.yield_region)
 
 (** val different_solutions : int -> yield -> yield -> bool **)
 
 let different_solutions n f g =
   (||) (point_lt f.yield_to g.yield_from)
-    ((||) (point_lt g.yield_to f.yield_from)
-      (some_opposite n f.yield_region g.yield_region))
+    ((||) (point_lt g.yield_to f.yield_from) (some_opposite n f.yield_region g.yield_region))
 
 (** val distinct :
-    int -> point -> point -> yield list -> yield list -> yield list -> yield
-    list option **)
+    int -> point -> point -> yield list -> yield list -> yield list -> yield list option **)
 
 let rec distinct n lo hi seen kept = function
 | [] -> Some kept
 | y :: rest' ->
   if has (same_solution n y) seen
   then distinct n lo hi (y :: seen) kept rest'
-  else if (&&) (within (value_of y) (lo, hi))
-            (all (different_solutions n y) kept)
+  else if (&&) (within (value_of y) (lo, hi)) (all (different_solutions n y) kept)
        then distinct n lo hi (y :: seen) (y :: kept) rest'
        else None
 
-(** val distinct_yields :
-    int -> point -> point -> yield list -> yield list option **)
+(** val distinct_yields : int -> point -> point -> yield list -> yield list option **)
 
 let distinct_yields n lo hi =
   distinct n lo hi [] []
@@ -1529,8 +1403,7 @@ let lookup row j =
 let times_row c row =
   map0 (fun e -> ((fst e), (Big_int_Z.mult_big_int c (snd e)))) row
 
-type form_bound = { bound_times : Big_int_Z.big_int;
-                    bound_at : Big_int_Z.big_int;
+type form_bound = { bound_times : Big_int_Z.big_int; bound_at : Big_int_Z.big_int;
                     gram_times : Big_int_Z.big_int; gram_rows : late_row list }
 
 (** val spread : sparse_row -> Big_int_Z.big_int list **)
@@ -1538,8 +1411,7 @@ type form_bound = { bound_times : Big_int_Z.big_int;
 let spread row =
   foldr (fun e dense ->
     set_nth Big_int_Z.zero_big_int dense (fst e)
-      (Big_int_Z.add_big_int (snd e)
-        (nth Big_int_Z.zero_big_int dense (fst e)))) [] row
+      (Big_int_Z.add_big_int (snd e) (nth Big_int_Z.zero_big_int dense (fst e)))) [] row
 
 (** val shifted_row :
     Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row **)
@@ -1551,13 +1423,12 @@ let shifted_row c d i row =
 
 let symmetric_rows_sparse rows =
   all_from (fun i row ->
-    all (fun e ->
-      Big_int_Z.eq_big_int (lookup row (fst e))
-        (lookup (nth [] rows (fst e)) i)) row) 0 rows
+    all (fun e -> Big_int_Z.eq_big_int (lookup row (fst e)) (lookup (nth [] rows (fst e)) i))
+      row) 0 rows
 
 (** val distance :
-    Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list
-    -> Big_int_Z.big_int **)
+    Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list ->
+    Big_int_Z.big_int **)
 
 let rec distance m row a = function
 | [] -> Big_int_Z.zero_big_int
@@ -1565,23 +1436,20 @@ let rec distance m row a = function
   Big_int_Z.add_big_int
     (Big_int_Z.abs_big_int
       (Big_int_Z.sub_big_int (head Big_int_Z.zero_big_int row)
-        (Big_int_Z.mult_big_int m (late_dot a b))))
-    (distance m (behead row) a factor')
+        (Big_int_Z.mult_big_int m (late_dot a b)))) (distance m (behead row) a factor')
 
 (** val row_bounded :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> late_row
-    list -> int -> (sparse_row * late_row) -> bool **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> late_row list -> int ->
+    (sparse_row * late_row) -> bool **)
 
 let row_bounded c d m factor0 i r =
   let row = spread (shifted_row c d i (fst r)) in
   Z.leb (distance m row (snd r) factor0)
-    (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-      Big_int_Z.unit_big_int)
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
       (Big_int_Z.sub_big_int (nth Big_int_Z.zero_big_int row i)
         (Big_int_Z.mult_big_int m (late_dot (snd r) (snd r)))))
 
-(** val bounded_rows :
-    Equality.sort -> sparse_row list -> form_bound -> bool **)
+(** val bounded_rows : Equality.sort -> sparse_row list -> form_bound -> bool **)
 
 let bounded_rows n rows b =
   (&&) (Z.ltb Big_int_Z.zero_big_int b.bound_times)
@@ -1590,30 +1458,23 @@ let bounded_rows n rows b =
         ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
           ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
             ((&&) (symmetric_rows_sparse rows)
-              (all_from
-                (row_bounded b.bound_times b.bound_at b.gram_times
-                  b.gram_rows) 0 (zip rows b.gram_rows)))))))
+              (all_from (row_bounded b.bound_times b.bound_at b.gram_times b.gram_rows) 0
+                (zip rows b.gram_rows)))))))
 
-type blocks = { free_count : int; slip_count : int; ff : sparse_row list;
-                fs : matrix; sf_a : matrix; sf_b : matrix; ss_a : matrix;
-                ss_b : matrix }
+type blocks = { free_count : int; slip_count : int; ff : sparse_row list; fs : matrix;
+                sf_a : matrix; sf_b : matrix; ss_a : matrix; ss_b : matrix }
 
-type elimination = { row_scale : Big_int_Z.big_int list;
-                     unit_of : Big_int_Z.big_int; right_w : matrix;
-                     left_va : matrix; left_vb : matrix;
-                     bound_c : Big_int_Z.big_int;
-                     bound_d : Big_int_Z.big_int;
-                     factor_scale : Big_int_Z.big_int;
-                     stiffness_factor : late_row list }
+type elimination = { row_scale : Big_int_Z.big_int list; unit_of : Big_int_Z.big_int;
+                     right_w : matrix; left_va : matrix; left_vb : matrix;
+                     bound_c : Big_int_Z.big_int; bound_d : Big_int_Z.big_int;
+                     factor_scale : Big_int_Z.big_int; stiffness_factor : late_row list }
 
-(** val sparse_dot :
-    sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+(** val sparse_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let sparse_dot row x =
   foldr (fun entry0 sum0 ->
     Big_int_Z.add_big_int
-      (Big_int_Z.mult_big_int (snd entry0)
-        (nth Big_int_Z.zero_big_int x (fst entry0))) sum0)
+      (Big_int_Z.mult_big_int (snd entry0) (nth Big_int_Z.zero_big_int x (fst entry0))) sum0)
     Big_int_Z.zero_big_int row
 
 (** val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int **)
@@ -1627,8 +1488,7 @@ let norm1 l =
 let row_of m i =
   nth [] m i
 
-(** val divide_up :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+(** val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let divide_up x d =
   Big_int_Z.minus_big_int (Z.div (Big_int_Z.minus_big_int x) d)
@@ -1638,12 +1498,10 @@ let divide_up x d =
 let stiffness_positive d w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.bound_d)
     ((&&)
-      (all (fun row ->
-        all (fun entry0 -> leq (Natural.succ (fst entry0)) d.free_count) row)
+      (all (fun row -> all (fun entry0 -> leq (Natural.succ (fst entry0)) d.free_count) row)
         d.ff)
-      (bounded_rows (Obj.magic d.free_count) d.ff { bound_times = w.bound_c;
-        bound_at = w.bound_d; gram_times = w.factor_scale; gram_rows =
-        w.stiffness_factor }))
+      (bounded_rows (Obj.magic d.free_count) d.ff { bound_times = w.bound_c; bound_at =
+        w.bound_d; gram_times = w.factor_scale; gram_rows = w.stiffness_factor }))
 
 (** val residual_column :
     blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
@@ -1652,15 +1510,13 @@ let residual_column d w g x j =
   let g0 = row_of g j in
   let x0 = row_of x j in
   map_from (fun i row ->
-    Big_int_Z.sub_big_int
-      (Big_int_Z.mult_big_int w.unit_of (nth Big_int_Z.zero_big_int g0 i))
+    Big_int_Z.sub_big_int (Big_int_Z.mult_big_int w.unit_of (nth Big_int_Z.zero_big_int g0 i))
       (sparse_dot row x0)) 0 d.ff
 
 (** val table : blocks -> (int -> int -> Big_int_Z.big_int) -> matrix **)
 
 let table d f =
-  map0 (fun i -> map0 (fun j -> f i j) (iota 0 d.slip_count))
-    (iota 0 d.slip_count)
+  map0 (fun i -> map0 (fun j -> f i j) (iota 0 d.slip_count)) (iota 0 d.slip_count)
 
 (** val condensed_center :
     blocks -> elimination -> matrix -> matrix -> matrix -> matrix -> matrix **)
@@ -1670,15 +1526,12 @@ let condensed_center d w ss sf v r =
     Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w.row_scale i)
       (Big_int_Z.sub_big_int
         (Big_int_Z.sub_big_int
-          (Big_int_Z.mult_big_int
-            (Big_int_Z.mult_big_int w.unit_of w.unit_of) (entry ss i j))
-          (Big_int_Z.mult_big_int w.unit_of
-            (dot (row_of sf i) (row_of w.right_w j))))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int w.unit_of w.unit_of) (entry ss i j))
+          (Big_int_Z.mult_big_int w.unit_of (dot (row_of sf i) (row_of w.right_w j))))
         (dot (row_of v i) (row_of r j))))
 
 (** val condensed_radius :
-    blocks -> elimination -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-    -> matrix **)
+    blocks -> elimination -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> matrix **)
 
 let condensed_radius d w norms_l norms_r =
   table d (fun i j ->
@@ -1691,27 +1544,22 @@ let condensed_radius d w norms_l norms_r =
 (** val condensed : blocks -> elimination -> enclosed **)
 
 let condensed d w =
-  let columns = fun g x ->
-    map0 (fun j -> residual_column d w g x j) (iota 0 d.slip_count)
-  in
+  let columns = fun g x -> map0 (fun j -> residual_column d w g x j) (iota 0 d.slip_count) in
   let r = columns d.fs w.right_w in
   let norms_r = map0 norm1 r in
   let norms_a = map0 norm1 (columns d.sf_a w.left_va) in
   let norms_b = map0 norm1 (columns d.sf_b w.left_vb) in
-  { size_of = d.slip_count; center_a =
-  (condensed_center d w d.ss_a d.sf_a w.left_va r); center_b =
-  (condensed_center d w d.ss_b d.sf_b w.left_vb r); radius_a =
-  (condensed_radius d w norms_a norms_r); radius_b =
-  (condensed_radius d w norms_b norms_r) }
+  { size_of = d.slip_count; center_a = (condensed_center d w d.ss_a d.sf_a w.left_va r);
+  center_b = (condensed_center d w d.ss_b d.sf_b w.left_vb r); radius_a =
+  (condensed_radius d w norms_a norms_r); radius_b = (condensed_radius d w norms_b norms_r) }
 
 (** val shapes : blocks -> elimination -> bool **)
 
 let shapes d w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.unit_of)
     ((&&)
-      (all (fun i ->
-        Z.ltb Big_int_Z.zero_big_int
-          (nth Big_int_Z.zero_big_int w.row_scale i)) (iota 0 d.slip_count))
+      (all (fun i -> Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int w.row_scale i))
+        (iota 0 d.slip_count))
       (all (fun i ->
         all (fun m -> leq (size (row_of m i)) d.free_count)
           (d.fs :: (d.sf_a :: (d.sf_b :: (w.right_w :: (w.left_va :: (w.left_vb :: [])))))))
@@ -1722,30 +1570,26 @@ let shapes d w =
 let check_elimination d w =
   (&&) (stiffness_positive d w) (shapes d w)
 
-(** val mark :
-    (int -> 'a1) -> int -> int list -> 'a1 option list -> 'a1 option list **)
+(** val mark : (int -> 'a1) -> int -> int list -> 'a1 option list -> 'a1 option list **)
 
 let rec mark value0 k l table0 =
   match l with
   | [] -> table0
-  | i :: l' ->
-    set_nth None (mark value0 (Natural.succ k) l' table0) i (Some (value0 k))
+  | i :: l' -> set_nth None (mark value0 (Natural.succ k) l' table0) i (Some (value0 k))
 
 (** val places : int list -> int option list **)
 
 let places l =
   mark (fun x -> x) 0 l []
 
-type pencil = { order : int; rows_a : sparse_row list;
-                rows_b : sparse_row list; free : int list }
+type pencil = { order : int; rows_a : sparse_row list; rows_b : sparse_row list; free : int list }
 
 (** val slip : pencil -> int list **)
 
 let slip q =
   filter (fun i ->
-    negb
-      (in_mem (Obj.magic i)
-        (mem (seq_predType nat_eqType) (Obj.magic q.free)))) (iota 0 q.order)
+    negb (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.free))))
+    (iota 0 q.order)
 
 (** val row_a : pencil -> int -> (int * Big_int_Z.big_int) list **)
 
@@ -1760,21 +1604,18 @@ let row_b q i =
 (** val wellformed : pencil -> bool **)
 
 let wellformed q =
-  (&&) (uniq nat_eqType (Obj.magic q.free))
-    (all (fun i -> leq (Natural.succ i) q.order) q.free)
+  (&&) (uniq nat_eqType (Obj.magic q.free)) (all (fun i -> leq (Natural.succ i) q.order) q.free)
 
 (** val free_rows_constant : pencil -> bool **)
 
 let free_rows_constant q =
-  all (fun i ->
-    all (fun e -> Big_int_Z.eq_big_int (snd e) Big_int_Z.zero_big_int)
-      (row_b q i)) q.free
+  all (fun i -> all (fun e -> Big_int_Z.eq_big_int (snd e) Big_int_Z.zero_big_int) (row_b q i))
+    q.free
 
 (** val restrict : int option list -> sparse_row -> sparse_row **)
 
 let restrict place0 row =
-  pmap (fun e ->
-    Option.map (fun k -> (k, (snd e))) (nth None place0 (fst e))) row
+  pmap (fun e -> Option.map (fun k -> (k, (snd e))) (nth None place0 (fst e))) row
 
 (** val blocks_by : pencil -> int option list -> int list -> blocks **)
 
@@ -1782,8 +1623,8 @@ let blocks_by q place0 columns =
   let lookups = fun row l -> map0 (fun j -> lookup row j) l in
   { free_count = (size q.free); slip_count = (size columns); ff =
   (map0 (fun i -> restrict place0 (row_a q i)) q.free); fs =
-  (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns);
-  sf_a = (map0 (fun i -> lookups (row_a q i) q.free) columns); sf_b =
+  (map0 (fun j -> map0 (fun i -> lookup (row_a q i) j) q.free) columns); sf_a =
+  (map0 (fun i -> lookups (row_a q i) q.free) columns); sf_b =
   (map0 (fun i -> lookups (row_b q i) q.free) columns); ss_a =
   (map0 (fun i -> lookups (row_a q i) columns) columns); ss_b =
   (map0 (fun i -> lookups (row_b q i) columns) columns) }
@@ -1799,13 +1640,12 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
-               bool; low_end : whole_end; high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : bool;
+               low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
-(** val weighted :
-    Big_int_Z.big_int list -> int -> sparse_row -> sparse_row **)
+(** val weighted : Big_int_Z.big_int list -> int -> sparse_row -> sparse_row **)
 
 let weighted weight i row =
   times_row (nth Big_int_Z.unit_big_int weight i) row
@@ -1816,77 +1656,62 @@ let may_move q r =
   let columns = slip q in
   cat q.free
     (map0 (fun j -> nth 0 columns j)
-      (filter (fun j -> negb (is_resting (state_of r j)))
-        (iota 0 (size columns))))
+      (filter (fun j -> negb (is_resting (state_of r j))) (iota 0 (size columns))))
 
-(** val members :
-    pencil -> Big_int_Z.big_int list -> region -> member list **)
+(** val members : pencil -> Big_int_Z.big_int list -> region -> member list **)
 
 let members q weight r =
-  map0 (fun i -> (i, ((weighted weight i (row_a q i)),
-    (weighted weight i (row_b q i))))) (may_move q r)
+  map0 (fun i -> (i, ((weighted weight i (row_a q i)), (weighted weight i (row_b q i)))))
+    (may_move q r)
 
 (** val member_entry : point -> member -> member -> Big_int_Z.big_int **)
 
 let member_entry e i j =
-  Big_int_Z.add_big_int
-    (Big_int_Z.mult_big_int (snd e) (lookup (fst (snd i)) (fst j)))
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) (lookup (fst (snd i)) (fst j)))
     (Big_int_Z.mult_big_int (fst e) (lookup (snd (snd i)) (fst j)))
 
 (** val member_form :
-    bool -> Big_int_Z.big_int -> point -> member -> member ->
-    Big_int_Z.big_int **)
+    bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int **)
 
 let member_form negative0 c e i j =
   Big_int_Z.mult_big_int c
     (if negative0
-     then Big_int_Z.sub_big_int
-            (Big_int_Z.minus_big_int (member_entry e i j))
+     then Big_int_Z.sub_big_int (Big_int_Z.minus_big_int (member_entry e i j))
             (member_entry e j i)
      else Big_int_Z.add_big_int (member_entry e i j) (member_entry e j i))
 
 (** val check_end :
-    pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
-    whole_end -> bool **)
+    pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region -> whole_end -> bool **)
 
 let check_end q weight strict negative0 e r w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.end_scale)
     (match w.end_factor with
      | Dense (weights0, rows) ->
        (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
-         ((&&)
-           (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q weight r)))
-           (covered (member_form negative0 w.end_scale e)
-             (weighted_dot weights0) strict (zip (members q weight r) rows)))
+         ((&&) (eq_op nat_eqType (Obj.magic size rows) (Obj.magic size (members q weight r)))
+           (covered (member_form negative0 w.end_scale e) (weighted_dot weights0) strict
+             (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
-         ((&&)
-           (eq_op nat_eqType (Obj.magic size rows)
-             (Obj.magic size (members q weight r)))
+         ((&&) (eq_op nat_eqType (Obj.magic size rows) (Obj.magic size (members q weight r)))
            (covered (member_form negative0 w.end_scale e) (fun a b ->
-             Big_int_Z.mult_big_int m (late_dot a b)) strict
-             (zip (members q weight r) rows))))
+             Big_int_Z.mult_big_int m (late_dot a b)) strict (zip (members q weight r) rows))))
 
 (** val check_whole : pencil -> region -> whole -> bool **)
 
 let check_whole q r w =
-  (&&)
-    (check_end q w.whole_weights true w.whole_negative r.lower r w.low_end)
-    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-      w.whole_negative r.upper r w.high_end)
+  (&&) (check_end q w.whole_weights true w.whole_negative r.lower r w.low_end)
+    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) w.whole_negative
+      r.upper r w.high_end)
 
 type polynomial = Big_int_Z.big_int list
 
-type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
-                   rest : polynomial }
+type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial; rest : polynomial }
 
 type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
-               claim_to : Big_int_Z.big_int;
-               claim_denominator : Big_int_Z.big_int; support : int list;
-               biactive : int list; components : polynomial list;
-               component_reductions : reduction list;
-               reaction_reductions : reduction list }
+               claim_to : Big_int_Z.big_int; claim_denominator : Big_int_Z.big_int;
+               support : int list; biactive : int list; components : polynomial list;
+               component_reductions : reduction list; reaction_reductions : reduction list }
 
 (** val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial **)
 
@@ -1906,8 +1731,7 @@ let rec add_poly p q =
 (** val mul_poly : polynomial -> polynomial -> polynomial **)
 
 let mul_poly p q =
-  foldr (fun a product0 ->
-    add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product0)) [] p
+  foldr (fun a product0 -> add_poly (scale_poly a q) (Big_int_Z.zero_big_int :: product0)) [] p
 
 (** val zero_poly : polynomial -> bool **)
 
@@ -1915,12 +1739,11 @@ let zero_poly p =
   all (fun a -> Big_int_Z.eq_big_int a Big_int_Z.zero_big_int) p
 
 (** val horner_interval :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-    -> (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int **)
 
 let rec horner_interval a b d = function
-| [] ->
-  ((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int), Big_int_Z.unit_big_int)
+| [] -> ((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int), Big_int_Z.unit_big_int)
 | c :: p' ->
   let (p0, power) = horner_interval a b d p' in
   let (lo, hi) = p0 in
@@ -1932,19 +1755,16 @@ let rec horner_interval a b d = function
   (Big_int_Z.add_big_int
     (if Z.leb Big_int_Z.zero_big_int hi
      then Big_int_Z.mult_big_int b hi
-     else Big_int_Z.mult_big_int a hi) constant0)),
-  (Big_int_Z.mult_big_int power d))
+     else Big_int_Z.mult_big_int a hi) constant0)), (Big_int_Z.mult_big_int power d))
 
 (** val lower_value :
-    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-    Big_int_Z.big_int **)
+    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int **)
 
 let lower_value k x y p =
   fst (fst (horner_interval x y k.claim_denominator p))
 
 (** val upper_value :
-    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-    Big_int_Z.big_int **)
+    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int **)
 
 let upper_value k x y p =
   snd (fst (horner_interval x y k.claim_denominator p))
@@ -1954,13 +1774,9 @@ let upper_value k x y p =
 let modulus_changes_sign k =
   let p = k.modulus in
   (||)
-    ((&&)
-      (Z.leb (upper_value k k.claim_from k.claim_from p)
-        Big_int_Z.zero_big_int)
+    ((&&) (Z.leb (upper_value k k.claim_from k.claim_from p) Big_int_Z.zero_big_int)
       (Z.leb Big_int_Z.zero_big_int (lower_value k k.claim_to k.claim_to p)))
-    ((&&)
-      (Z.leb Big_int_Z.zero_big_int
-        (lower_value k k.claim_from k.claim_from p))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (lower_value k k.claim_from k.claim_from p))
       (Z.leb (upper_value k k.claim_to k.claim_to p) Big_int_Z.zero_big_int))
 
 (** val root_interval : claim -> bool **)
@@ -1968,8 +1784,7 @@ let modulus_changes_sign k =
 let root_interval k =
   (&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
     ((&&) (Z.leb k.claim_from k.claim_to)
-      ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
-        (modulus_changes_sign k)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator) (modulus_changes_sign k)))
 
 (** val no_reduction : reduction **)
 
@@ -1994,15 +1809,13 @@ let shows_zero k g w =
 
 let shows_positive k g w =
   (&&) (reduces k g w)
-    (Z.ltb Big_int_Z.zero_big_int
-      (lower_value k k.claim_from k.claim_to w.rest))
+    (Z.ltb Big_int_Z.zero_big_int (lower_value k k.claim_from k.claim_to w.rest))
 
 (** val shows_negative : claim -> polynomial -> reduction -> bool **)
 
 let shows_negative k g w =
   (&&) (reduces k g w)
-    (Z.ltb (upper_value k k.claim_from k.claim_to w.rest)
-      Big_int_Z.zero_big_int)
+    (Z.ltb (upper_value k k.claim_from k.claim_to w.rest) Big_int_Z.zero_big_int)
 
 (** val component : claim -> int -> Big_int_Z.big_int list **)
 
@@ -2012,14 +1825,12 @@ let component k i =
 (** val combine_row : claim -> sparse_row -> polynomial **)
 
 let combine_row k row =
-  foldr (fun e sum0 ->
-    add_poly (scale_poly (snd e) (component k (fst e))) sum0) [] row
+  foldr (fun e sum0 -> add_poly (scale_poly (snd e) (component k (fst e))) sum0) [] row
 
 (** val reaction_poly : pencil -> claim -> int -> polynomial **)
 
 let reaction_poly q k i =
-  add_poly (combine_row k (row_a q i))
-    (Big_int_Z.zero_big_int :: (combine_row k (row_b q i)))
+  add_poly (combine_row k (row_a q i)) (Big_int_Z.zero_big_int :: (combine_row k (row_b q i)))
 
 (** val component_witness : claim -> int -> reduction **)
 
@@ -2059,11 +1870,8 @@ let y_positive q k i =
 (** val columns_in_order : pencil -> bool **)
 
 let columns_in_order q =
-  (&&)
-    (all (fun row -> all (fun e -> leq (Natural.succ (fst e)) q.order) row)
-      q.rows_a)
-    (all (fun row -> all (fun e -> leq (Natural.succ (fst e)) q.order) row)
-      q.rows_b)
+  (&&) (all (fun row -> all (fun e -> leq (Natural.succ (fst e)) q.order) row) q.rows_a)
+    (all (fun row -> all (fun e -> leq (Natural.succ (fst e)) q.order) row) q.rows_b)
 
 (** val check_claim : pencil -> claim -> bool **)
 
@@ -2074,43 +1882,34 @@ let check_claim q k =
         ((&&) (all (fun i -> y_zero q k i) q.free)
           ((&&)
             (all (fun i ->
-              in_mem (Obj.magic i)
-                (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+              in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic slip q)))
               (cat k.support k.biactive))
             ((&&)
               (all (fun i ->
-                if in_mem (Obj.magic i)
-                     (mem (seq_predType nat_eqType) (Obj.magic k.support))
+                if in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic k.support))
                 then (&&) (x_positive k i)
                        ((&&) (y_zero q k i)
                          (negb
                            (in_mem (Obj.magic i)
-                             (mem (seq_predType nat_eqType)
-                               (Obj.magic k.biactive)))))
+                             (mem (seq_predType nat_eqType) (Obj.magic k.biactive)))))
                 else (&&) (x_zero k i)
                        (if in_mem (Obj.magic i)
-                             (mem (seq_predType nat_eqType)
-                               (Obj.magic k.biactive))
+                             (mem (seq_predType nat_eqType) (Obj.magic k.biactive))
                         then y_zero q k i
                         else y_positive q k i)) (slip q))
               ((||)
                 (has (fun i ->
-                  in_mem (Obj.magic i)
-                    (mem (seq_predType nat_eqType) (Obj.magic k.support)))
-                  (slip q))
-                (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
+                  in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic k.support)))
+                  (slip q)) (has (fun i -> (||) (x_positive k i) (x_negative k i)) q.free)))))))
 
-type enclosed_claim = { box_support : int list; box_from : point;
-                        box_to : point; box_pivot : int;
-                        box_center : Big_int_Z.big_int list;
-                        right_inverse : matrix;
-                        box_width : Big_int_Z.big_int;
-                        rate_width : Big_int_Z.big_int;
-                        left_null : Big_int_Z.big_int list }
+type enclosed_claim = { box_support : int list; box_from : point; box_to : point;
+                        box_pivot : int; box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix; box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int; left_null : Big_int_Z.big_int list }
 
 (** val add_multiple :
-    Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-    Big_int_Z.big_int list **)
+    Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list **)
 
 let rec add_multiple c x y =
   match x with
@@ -2119,12 +1918,10 @@ let rec add_multiple c x y =
     (match y with
      | [] -> (Big_int_Z.mult_big_int c a) :: (add_multiple c x' [])
      | b :: y' ->
-       (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c a) b) :: (add_multiple
-                                                                   c x' y'))
+       (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c a) b) :: (add_multiple c x' y'))
 
 (** val scatter :
-    Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
-    Big_int_Z.big_int list **)
+    Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int list **)
 
 let scatter c row y =
   foldr (fun e y0 ->
@@ -2137,26 +1934,21 @@ let scatter c row y =
 let row_times y row =
   foldr (fun e sum0 -> add_multiple (snd e) (nth [] y (fst e)) sum0) [] row
 
-(** val absolute_dot :
-    sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+(** val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let absolute_dot row w =
   foldr (fun e sum0 ->
     Big_int_Z.add_big_int
       (Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (snd e))
-        (nth Big_int_Z.zero_big_int w (fst e))) sum0) Big_int_Z.zero_big_int
-    row
+        (nth Big_int_Z.zero_big_int w (fst e))) sum0) Big_int_Z.zero_big_int row
 
-(** val at_end :
-    point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+(** val at_end : point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let at_end e a b =
-  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) a)
-    (Big_int_Z.mult_big_int (fst e) b)
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) a) (Big_int_Z.mult_big_int (fst e) b)
 
 (** val row_at_end :
-    point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-    Big_int_Z.big_int list **)
+    point -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int list **)
 
 let row_at_end e a b =
   add_multiple (snd e) a (add_multiple (fst e) b [])
@@ -2175,17 +1967,15 @@ let active_list q c =
 (** val pivot_removed : pencil -> enclosed_claim -> Equality.sort list **)
 
 let pivot_removed q c =
-  filter (fun i -> negb (eq_op nat_eqType i (Obj.magic c.box_pivot)))
-    (active_list q c)
+  filter (fun i -> negb (eq_op nat_eqType i (Obj.magic c.box_pivot))) (active_list q c)
 
-(** val inverse_vanishes_off :
-    pencil -> enclosed_claim -> int list -> bool **)
+(** val inverse_vanishes_off : pencil -> enclosed_claim -> int list -> bool **)
 
 let inverse_vanishes_off q c l =
   all (fun j ->
     (||) (in_mem (Obj.magic j) (mem (seq_predType nat_eqType) (Obj.magic l)))
-      (Big_int_Z.eq_big_int (norm1 (nth [] c.right_inverse j))
-        Big_int_Z.zero_big_int)) (iota 0 q.order)
+      (Big_int_Z.eq_big_int (norm1 (nth [] c.right_inverse j)) Big_int_Z.zero_big_int))
+    (iota 0 q.order)
 
 (** val vanishes_elsewhere : pencil -> enclosed_claim -> bool **)
 
@@ -2201,12 +1991,12 @@ let vanishes_elsewhere q c =
 
 let margin g p =
   Big_int_Z.sub_big_int
-    (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-      Big_int_Z.unit_big_int) (nth Big_int_Z.zero_big_int g p)) (norm1 g)
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+      (nth Big_int_Z.zero_big_int g p)) (norm1 g)
 
 (** val dominated :
-    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
-    Big_int_Z.big_int -> bool **)
+    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
+    -> bool **)
 
 let dominated c p g residual0 rate0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g p))
@@ -2216,17 +2006,15 @@ let dominated c p g residual0 rate0 =
       (Z.leb rate0 (Big_int_Z.mult_big_int (margin g p) c.rate_width)))
 
 (** val dominated_at :
-    enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
-    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-    Big_int_Z.big_int -> bool **)
+    enclosed_claim -> point -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
 let dominated_at c e p ga gb ra rb rate0 =
-  dominated c p (row_at_end e ga gb) (at_end e ra rb)
-    (Big_int_Z.mult_big_int (snd e) rate0)
+  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Big_int_Z.mult_big_int (snd e) rate0)
 
 (** val dominated_ends :
-    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-    -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
+    enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
 let dominated_ends c p ga gb ra rb rate0 =
   (&&) (dominated_at c c.box_from p ga gb ra rb rate0)
@@ -2237,11 +2025,9 @@ let dominated_ends c p ga gb ra rb rate0 =
 
 let regular_row q c eps p i =
   dominated_ends c p (row_times c.right_inverse (row_a q i))
-    (row_times c.right_inverse (row_b q i))
-    (sparse_dot (row_a q i) c.box_center)
+    (row_times c.right_inverse (row_b q i)) (sparse_dot (row_a q i) c.box_center)
     (sparse_dot (row_b q i) c.box_center)
-    (Big_int_Z.add_big_int
-      (Big_int_Z.abs_big_int (sparse_dot (row_b q i) c.box_center))
+    (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (sparse_dot (row_b q i) c.box_center))
       (absolute_dot (row_b q i) eps))
 
 (** val norms : enclosed_claim -> Big_int_Z.big_int list **)
@@ -2252,19 +2038,17 @@ let norms c =
 (** val widths : enclosed_claim -> Big_int_Z.big_int list **)
 
 let widths c =
-  map0 (fun row -> Big_int_Z.mult_big_int (norm1 row) c.box_width)
-    c.right_inverse
+  map0 (fun row -> Big_int_Z.mult_big_int (norm1 row) c.box_width) c.right_inverse
 
 (** val left_times :
     pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list **)
 
 let left_times q c rows =
   foldr (fun i sum0 ->
-    scatter (nth Big_int_Z.zero_big_int c.left_null (Obj.magic i))
-      (Obj.magic rows i) sum0) [] (active_list q c)
+    scatter (nth Big_int_Z.zero_big_int c.left_null (Obj.magic i)) (Obj.magic rows i) sum0) []
+    (active_list q c)
 
-(** val left_value :
-    pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int **)
+(** val left_value : pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int **)
 
 let left_value q c rows =
   sumZ (Obj.magic active_list q c) (fun i ->
@@ -2272,37 +2056,32 @@ let left_value q c rows =
       (sparse_dot (rows i) c.box_center))
 
 (** val weighted_norm :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int **)
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int **)
 
 let weighted_norm q c l eps =
   sumZ (Obj.magic pivot_removed q c) (fun j ->
-    Big_int_Z.mult_big_int
-      (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int l j))
+    Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int l j))
       (nth Big_int_Z.zero_big_int eps j))
 
 (** val above_radius :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
-    -> point -> bool **)
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int -> point -> bool **)
 
 let above_radius q c eps la lb va vb e =
   Z.ltb (weighted_norm q c (row_at_end e la lb) eps) (at_end e va vb)
 
 (** val below_radius :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
-    -> point -> bool **)
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int -> point -> bool **)
 
 let below_radius q c eps la lb va vb e =
-  Z.ltb
-    (Big_int_Z.add_big_int (at_end e va vb)
-      (weighted_norm q c (row_at_end e la lb) eps)) Big_int_Z.zero_big_int
+  Z.ltb (Big_int_Z.add_big_int (at_end e va vb) (weighted_norm q c (row_at_end e la lb) eps))
+    Big_int_Z.zero_big_int
 
 (** val opposite_signs :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
-    -> bool **)
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
 let opposite_signs q c eps la lb va vb =
   (||)
@@ -2315,66 +2094,52 @@ let opposite_signs q c eps la lb va vb =
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
 
 let determinant_changes_sign q c eps =
-  (&&)
-    (Z.ltb Big_int_Z.zero_big_int
-      (nth Big_int_Z.zero_big_int c.left_null c.box_pivot))
-    (opposite_signs q c eps (left_times q c (row_a q))
-      (left_times q c (row_b q)) (left_value q c (row_a q))
-      (left_value q c (row_b q)))
+  (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int c.left_null c.box_pivot))
+    (opposite_signs q c eps (left_times q c (row_a q)) (left_times q c (row_b q))
+      (left_value q c (row_a q)) (left_value q c (row_b q)))
 
 (** val one_root_at :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool **)
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool **)
 
 let one_root_at q c eps la lb vb e =
   Z.ltb
-    (Big_int_Z.mult_big_int
-      (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
+    (Big_int_Z.mult_big_int (weighted_norm q c (row_at_end e la lb) (norms c)) c.rate_width)
     (Big_int_Z.mult_big_int (snd e)
-      (Big_int_Z.sub_big_int (Big_int_Z.abs_big_int vb)
-        (weighted_norm q c lb eps)))
+      (Big_int_Z.sub_big_int (Big_int_Z.abs_big_int vb) (weighted_norm q c lb eps)))
 
 (** val one_root_between :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool **)
+    pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> Big_int_Z.big_int -> bool **)
 
 let one_root_between q c eps la lb vb =
-  (&&) (one_root_at q c eps la lb vb c.box_from)
-    (one_root_at q c eps la lb vb c.box_to)
+  (&&) (one_root_at q c eps la lb vb c.box_from) (one_root_at q c eps la lb vb c.box_to)
 
-(** val one_root :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+(** val one_root : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
 
 let one_root q c eps =
-  one_root_between q c eps (left_times q c (row_a q))
-    (left_times q c (row_b q)) (left_value q c (row_b q))
+  one_root_between q c eps (left_times q c (row_a q)) (left_times q c (row_b q))
+    (left_value q c (row_b q))
 
 (** val reaction_positive :
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> point -> int -> bool **)
 
 let reaction_positive q c eps e i =
-  Z.ltb
-    (at_end e (absolute_dot (row_a q i) eps) (absolute_dot (row_b q i) eps))
-    (at_end e (sparse_dot (row_a q i) c.box_center)
-      (sparse_dot (row_b q i) c.box_center))
+  Z.ltb (at_end e (absolute_dot (row_a q i) eps) (absolute_dot (row_b q i) eps))
+    (at_end e (sparse_dot (row_a q i) c.box_center) (sparse_dot (row_b q i) c.box_center))
 
-(** val box_signs :
-    pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
+(** val box_signs : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool **)
 
 let box_signs q c eps =
-  (&&)
-    (Z.ltb Big_int_Z.zero_big_int
-      (nth Big_int_Z.zero_big_int c.box_center c.box_pivot))
+  (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int c.box_center c.box_pivot))
     ((&&)
       (all (fun j ->
-        Z.ltb (nth Big_int_Z.zero_big_int eps j)
-          (nth Big_int_Z.zero_big_int c.box_center j)) c.box_support)
+        Z.ltb (nth Big_int_Z.zero_big_int eps j) (nth Big_int_Z.zero_big_int c.box_center j))
+        c.box_support)
       (all (fun i ->
-        (||)
-          (in_mem (Obj.magic i)
-            (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
-          ((&&) (reaction_positive q c eps c.box_from i)
-            (reaction_positive q c eps c.box_to i))) (slip q)))
+        (||) (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
+          ((&&) (reaction_positive q c eps c.box_from i) (reaction_positive q c eps c.box_to i)))
+        (slip q)))
 
 (** val check_enclosed_claim : pencil -> enclosed_claim -> bool **)
 
@@ -2388,18 +2153,15 @@ let check_enclosed_claim q c =
               (mem (seq_predType nat_eqType) (Obj.magic c.box_support)))
             ((&&)
               (all (fun i ->
-                in_mem (Obj.magic i)
-                  (mem (seq_predType nat_eqType) (Obj.magic slip q)))
+                in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic slip q)))
                 c.box_support)
               ((&&) (vanishes_elsewhere q c)
                 ((&&) (Z.leb Big_int_Z.zero_big_int c.box_width)
                   ((&&) (Z.leb Big_int_Z.zero_big_int c.rate_width)
                     ((&&)
-                      (all_from (Obj.magic regular_row q c (widths c)) 0
-                        (pivot_removed q c))
+                      (all_from (Obj.magic regular_row q c (widths c)) 0 (pivot_removed q c))
                       ((&&) (determinant_changes_sign q c (widths c))
-                        ((&&) (one_root q c (widths c))
-                          (box_signs q c (widths c)))))))))))))
+                        ((&&) (one_root q c (widths c)) (box_signs q c (widths c)))))))))))))
 
 type solution_claim =
 | ExactClaim of claim
@@ -2438,8 +2200,7 @@ let claimed_to = function
 
 let known_of q k =
   { known_from = (claimed_from k); known_to = (claimed_to k); known_support =
-    (positions q (claimed_support k)); known_biactive =
-    (positions q (claimed_biactive k)) }
+    (positions q (claimed_support k)); known_biactive = (positions q (claimed_biactive k)) }
 
 (** val check_solution_claim : pencil -> solution_claim -> bool **)
 
@@ -2452,8 +2213,7 @@ let check_solution_claim q = function
 let known_solutions q claims =
   map0 (fun k -> known_of q k) claims
 
-(** val check_limit :
-    pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+(** val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
 
 let check_limit q r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
@@ -2462,42 +2222,37 @@ let check_limit q r k x =
       ((&&) (leq (Natural.succ k) (size (slip q)))
         ((&&)
           (all (fun i ->
-            Big_int_Z.eq_big_int (sparse_dot (row_a q i) x)
-              Big_int_Z.zero_big_int) q.free)
+            Big_int_Z.eq_big_int (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
           (all (fun j ->
             if is_moving (state_of r j)
-            then Big_int_Z.eq_big_int
-                   (sparse_dot (row_b q (nth 0 (slip q) j)) x)
+            then Big_int_Z.eq_big_int (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                    Big_int_Z.zero_big_int
             else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
             (iota 0 (size (slip q)))))))
 
 (** val check_blocks :
-    pencil -> solution_claim list -> elimination -> whole leaf tree -> point
-    -> point -> blocks -> bool **)
+    pencil -> solution_claim list -> elimination -> whole leaf tree -> point -> point -> blocks
+    -> bool **)
 
 let check_blocks q claims w tr lo hi d =
   (&&) (wellformed q)
     ((&&) (free_rows_constant q)
       ((&&) (check_elimination d w)
         ((&&) (all (check_solution_claim q) claims)
-          (check_cover (condensed d w) (known_solutions q claims)
-            (check_whole q) (check_limit q) tr lo hi))))
+          (check_cover (condensed d w) (known_solutions q claims) (check_whole q)
+            (check_limit q) tr lo hi))))
 
 (** val check_complete :
-    pencil -> solution_claim list -> elimination -> whole leaf tree -> point
-    -> point -> bool **)
+    pencil -> solution_claim list -> elimination -> whole leaf tree -> point -> point -> bool **)
 
 let check_complete q claims w tr lo hi =
   check_blocks q claims w tr lo hi (blocks_of q)
 
 (** val found :
-    pencil -> solution_claim list -> whole leaf tree -> point -> point ->
-    yield list **)
+    pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield list **)
 
 let found q claims tr lo hi =
-  yields (enclosed_order (size (slip q))) (known_solutions q claims) tr
-    (window lo hi)
+  yields (enclosed_order (size (slip q))) (known_solutions q claims) tr (window lo hi)
 
 (** val left_open : whole leaf tree -> point -> point -> region list **)
 
@@ -2506,12 +2261,11 @@ let left_open tr lo hi =
 
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
-type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
-                       normal : planar; sign_of : Big_int_Z.big_int }
+type slip_particle = { first_dof : int; second_dof : int; tangent : planar; normal : planar;
+                       sign_of : Big_int_Z.big_int }
 
-type system = { dofs : int; stiffness : sparse_row list;
-                mass : sparse_row list; free_dofs : int list;
-                particles : slip_particle list;
+type system = { dofs : int; stiffness : sparse_row list; mass : sparse_row list;
+                free_dofs : int list; particles : slip_particle list;
                 unit_length : Big_int_Z.big_int }
 
 type linear_form = sparse_row * sparse_row
@@ -2528,12 +2282,10 @@ let table_row table0 row =
       map0 (fun c -> ((fst c), (Big_int_Z.mult_big_int (snd c) (snd e))))
         (nth [] table0 (fst e))) row)
 
-(** val pencil_of_forms :
-    sparse_row list -> int -> linear_form list -> int list -> pencil **)
+(** val pencil_of_forms : sparse_row list -> int -> linear_form list -> int list -> pencil **)
 
 let pencil_of_forms table0 order0 forms free0 =
-  { order = order0; rows_a =
-    (map0 (fun f -> table_row table0 (fst f)) forms); rows_b =
+  { order = order0; rows_a = (map0 (fun f -> table_row table0 (fst f)) forms); rows_b =
     (map0 (fun f -> table_row table0 (snd f)) forms); free = free0 }
 
 (** val free_number : system -> int **)
@@ -2560,8 +2312,8 @@ let moving_dofs s =
 
 let particle s j =
   nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
-    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int,
-    Big_int_Z.zero_big_int); sign_of = Big_int_Z.zero_big_int } s.particles j
+    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int, Big_int_Z.zero_big_int);
+    sign_of = Big_int_Z.zero_big_int } s.particles j
 
 (** val k_row : system -> int -> (int * Big_int_Z.big_int) list **)
 
@@ -2573,8 +2325,7 @@ let k_row s d =
 let m_row s d =
   nth [] s.mass d
 
-(** val column :
-    system -> Equality.sort -> (int * Big_int_Z.big_int) option **)
+(** val column : system -> Equality.sort -> (int * Big_int_Z.big_int) option **)
 
 let column s d =
   if in_mem d (mem (seq_predType nat_eqType) (Obj.magic s.free_dofs))
@@ -2583,15 +2334,12 @@ let column s d =
        then let j = index nat_eqType d (Obj.magic first_dofs s) in
             Some ((addn (free_number s) j),
             (Big_int_Z.minus_big_int
-              (Big_int_Z.mult_big_int (particle s j).sign_of
-                (fst (particle s j).tangent))))
-       else if in_mem d
-                 (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
+              (Big_int_Z.mult_big_int (particle s j).sign_of (fst (particle s j).tangent))))
+       else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic second_dofs s))
             then let j = index nat_eqType d (Obj.magic second_dofs s) in
                  Some ((addn (free_number s) j),
                  (Big_int_Z.minus_big_int
-                   (Big_int_Z.mult_big_int (particle s j).sign_of
-                     (snd (particle s j).tangent))))
+                   (Big_int_Z.mult_big_int (particle s j).sign_of (snd (particle s j).tangent))))
             else None
 
 (** val column_table : system -> (int * Big_int_Z.big_int) option list **)
@@ -2599,12 +2347,10 @@ let column s d =
 let column_table s =
   let along = fun part j -> ((addn (free_number s) j),
     (Big_int_Z.minus_big_int
-      (Big_int_Z.mult_big_int (particle s j).sign_of
-        (part (particle s j).tangent))))
+      (Big_int_Z.mult_big_int (particle s j).sign_of (part (particle s j).tangent))))
   in
   mark (fun k -> (k, s.unit_length)) 0 s.free_dofs
-    (mark (along fst) 0 (first_dofs s)
-      (mark (along snd) 0 (second_dofs s) []))
+    (mark (along fst) 0 (first_dofs s) (mark (along snd) 0 (second_dofs s) []))
 
 (** val column_rows : system -> sparse_row list **)
 
@@ -2616,12 +2362,9 @@ let column_rows s =
 (** val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row **)
 
 let multiple c row =
-  if Big_int_Z.eq_big_int c Big_int_Z.zero_big_int
-  then []
-  else times_row c row
+  if Big_int_Z.eq_big_int c Big_int_Z.zero_big_int then [] else times_row c row
 
-(** val direction :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
+(** val direction : Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
 
 let direction a b p =
   ((Big_int_Z.add_big_int (Big_int_Z.mult_big_int a (fst p.tangent))
@@ -2629,12 +2372,10 @@ let direction a b p =
     (Big_int_Z.add_big_int (Big_int_Z.mult_big_int a (snd p.tangent))
       (Big_int_Z.mult_big_int b (snd p.normal))))
 
-(** val at_both :
-    (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
+(** val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row **)
 
 let at_both rows p e =
-  cat (multiple (fst e) (rows p.first_dof))
-    (multiple (snd e) (rows p.second_dof))
+  cat (multiple (fst e) (rows p.first_dof)) (multiple (snd e) (rows p.second_dof))
 
 (** val force_form : system -> unknown -> int -> linear_form **)
 
@@ -2643,14 +2384,12 @@ let force_form s u d =
                  | Mu -> []
                  | Lambda2 (_, _) -> m_row s d))
 
-(** val pressing_form :
-    system -> unknown -> planar -> slip_particle -> linear_form **)
+(** val pressing_form : system -> unknown -> planar -> slip_particle -> linear_form **)
 
 let pressing_form s u e p =
-  ((at_both (k_row s) p e),
-    (match u with
-     | Mu -> []
-     | Lambda2 (_, _) -> at_both (m_row s) p e))
+  ((at_both (k_row s) p e), (match u with
+                             | Mu -> []
+                             | Lambda2 (_, _) -> at_both (m_row s) p e))
 
 (** val cone_form : system -> unknown -> slip_particle -> linear_form **)
 
@@ -2658,13 +2397,10 @@ let cone_form s u p =
   match u with
   | Mu ->
     ((at_both (k_row s) p (direction p.sign_of Big_int_Z.zero_big_int p)),
-      (at_both (k_row s) p
-        (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
+      (at_both (k_row s) p (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
   | Lambda2 (m, q) ->
-    ((at_both (k_row s) p
-       (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
-      (at_both (m_row s) p
-        (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
+    ((at_both (k_row s) p (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
+      (at_both (m_row s) p (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
 
 (** val negative : linear_form -> linear_form **)
 
@@ -2681,8 +2417,8 @@ let system_forms s u =
 (** val pencil_of : system -> unknown -> pencil **)
 
 let pencil_of s u =
-  pencil_of_forms (column_rows s) (addn (free_number s) (size s.particles))
-    (system_forms s u) (iota 0 (free_number s))
+  pencil_of_forms (column_rows s) (addn (free_number s) (size s.particles)) (system_forms s u)
+    (iota 0 (free_number s))
 
 (** val columns_in_range : system -> sparse_row list -> bool **)
 
@@ -2700,12 +2436,10 @@ let inner a b =
 let particle_wellformed s p =
   let unit_square = Big_int_Z.mult_big_int s.unit_length s.unit_length in
   (&&)
-    (Big_int_Z.eq_big_int (Big_int_Z.mult_big_int p.sign_of p.sign_of)
-      Big_int_Z.unit_big_int)
+    (Big_int_Z.eq_big_int (Big_int_Z.mult_big_int p.sign_of p.sign_of) Big_int_Z.unit_big_int)
     ((&&) (Big_int_Z.eq_big_int (inner p.tangent p.tangent) unit_square)
       ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
-        (Big_int_Z.eq_big_int (inner p.tangent p.normal)
-          Big_int_Z.zero_big_int)))
+        (Big_int_Z.eq_big_int (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
 
 (** val system_wellformed : system -> unknown -> bool **)
 
@@ -2713,18 +2447,15 @@ let system_wellformed s u =
   (&&) (uniq nat_eqType (Obj.magic moving_dofs s))
     ((&&) (all (fun d -> leq (Natural.succ d) s.dofs) (moving_dofs s))
       ((&&) (all (particle_wellformed s) s.particles)
-        ((&&)
-          ((&&) (columns_in_range s s.stiffness) (columns_in_range s s.mass))
+        ((&&) ((&&) (columns_in_range s s.stiffness) (columns_in_range s s.mass))
           ((&&) (Z.ltb Big_int_Z.zero_big_int s.unit_length)
             (match u with
              | Mu -> true
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
 
 type lifted = { motion_claim : claim; forces : polynomial list;
-                force_reductions : reduction list;
-                balance_reductions : reduction list;
-                normal_reductions : reduction list;
-                rate_reductions : reduction list;
+                force_reductions : reduction list; balance_reductions : reduction list;
+                normal_reductions : reduction list; rate_reductions : reduction list;
                 cone_reductions : reduction list }
 
 (** val witness : reduction list -> int -> reduction **)
@@ -2754,17 +2485,14 @@ let balance_poly s u l d =
   let inertia =
     match u with
     | Mu -> []
-    | Lambda2 (_, _) ->
-      Big_int_Z.zero_big_int :: (combine_row l.motion_claim (m_row s d))
+    | Lambda2 (_, _) -> Big_int_Z.zero_big_int :: (combine_row l.motion_claim (m_row s d))
   in
   subtract (add_poly stiff inertia) (w_poly l d)
 
-(** val along_poly :
-    planar -> slip_particle -> (int -> polynomial) -> polynomial **)
+(** val along_poly : planar -> slip_particle -> (int -> polynomial) -> polynomial **)
 
 let along_poly e p f =
-  add_poly (scale_poly (fst e) (f p.first_dof))
-    (scale_poly (snd e) (f p.second_dof))
+  add_poly (scale_poly (fst e) (f p.first_dof)) (scale_poly (snd e) (f p.second_dof))
 
 (** val normal_poly : lifted -> slip_particle -> polynomial **)
 
@@ -2785,15 +2513,13 @@ let cone_poly u l p =
       (Big_int_Z.zero_big_int :: (along_poly p.normal p (w_poly l)))
   | Lambda2 (m, q) ->
     add_poly
-      (scale_poly (Big_int_Z.mult_big_int q p.sign_of)
-        (along_poly p.tangent p (w_poly l)))
+      (scale_poly (Big_int_Z.mult_big_int q p.sign_of) (along_poly p.tangent p (w_poly l)))
       (scale_poly m (along_poly p.normal p (w_poly l)))
 
 (** val balanced : system -> unknown -> lifted -> int -> bool **)
 
 let balanced s u l d =
-  shows_zero l.motion_claim (balance_poly s u l d)
-    (witness l.balance_reductions d)
+  shows_zero l.motion_claim (balance_poly s u l d) (witness l.balance_reductions d)
 
 (** val without_force : lifted -> int -> bool **)
 
@@ -2808,11 +2534,8 @@ let at_rest l d =
 (** val dof_moves : lifted -> int -> bool **)
 
 let dof_moves l d =
-  (||)
-    (shows_positive l.motion_claim (v_poly l d)
-      (component_witness l.motion_claim d))
-    (shows_negative l.motion_claim (v_poly l d)
-      (component_witness l.motion_claim d))
+  (||) (shows_positive l.motion_claim (v_poly l d) (component_witness l.motion_claim d))
+    (shows_negative l.motion_claim (v_poly l d) (component_witness l.motion_claim d))
 
 (** val in_support : system -> lifted -> int -> bool **)
 
@@ -2832,9 +2555,7 @@ let particle_states s u l j =
   let p = particle s j in
   let rate0 = witness l.rate_reductions j in
   let reaction = witness l.cone_reductions j in
-  (&&)
-    (shows_zero l.motion_claim (normal_poly l p)
-      (witness l.normal_reductions j))
+  (&&) (shows_zero l.motion_claim (normal_poly l p) (witness l.normal_reductions j))
     ((&&)
       (if in_support s l j
        then shows_negative l.motion_claim (rate_poly l p) rate0
@@ -2843,23 +2564,18 @@ let particle_states s u l j =
        then shows_zero l.motion_claim (cone_poly u l p) reaction
        else shows_negative l.motion_claim (cone_poly u l p) reaction))
 
-type zero_system = { without_zero : system;
-                     zero_particles : slip_particle list }
+type zero_system = { without_zero : system; zero_particles : slip_particle list }
 
-type zero_claim = { lifted_part : lifted;
-                    opening_reductions : reduction list;
-                    pressure_reductions : reduction list;
-                    sliding_reductions : reduction list;
-                    right_reductions : reduction list;
-                    left_reductions : reduction list }
+type zero_claim = { lifted_part : lifted; opening_reductions : reduction list;
+                    pressure_reductions : reduction list; sliding_reductions : reduction list;
+                    right_reductions : reduction list; left_reductions : reduction list }
 
 (** val zero_particle : zero_system -> int -> slip_particle **)
 
 let zero_particle z0 j =
   nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
-    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int,
-    Big_int_Z.zero_big_int); sign_of = Big_int_Z.zero_big_int }
-    z0.zero_particles j
+    Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int, Big_int_Z.zero_big_int);
+    sign_of = Big_int_Z.zero_big_int } z0.zero_particles j
 
 (** val zero_dofs : zero_system -> int list **)
 
@@ -2893,8 +2609,7 @@ let left z0 j =
 let frame_wellformed z0 p =
   (&&)
     (Big_int_Z.eq_big_int (inner p.tangent p.tangent)
-      (Big_int_Z.mult_big_int z0.without_zero.unit_length
-        z0.without_zero.unit_length))
+      (Big_int_Z.mult_big_int z0.without_zero.unit_length z0.without_zero.unit_length))
     ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
       (Big_int_Z.eq_big_int (inner p.tangent p.normal) Big_int_Z.zero_big_int))
 
@@ -2906,14 +2621,14 @@ let zero_wellformed z0 u =
       ((&&)
         (all (fun p ->
           (&&) (leq (Natural.succ p.first_dof) z0.without_zero.dofs)
-            (leq (Natural.succ p.second_dof) z0.without_zero.dofs))
-          z0.zero_particles) (all (frame_wellformed z0) z0.zero_particles)))
+            (leq (Natural.succ p.second_dof) z0.without_zero.dofs)) z0.zero_particles)
+        (all (frame_wellformed z0) z0.zero_particles)))
 
 (** val with_sign : Big_int_Z.big_int -> slip_particle -> slip_particle **)
 
 let with_sign sign0 p =
-  { first_dof = p.first_dof; second_dof = p.second_dof; tangent = p.tangent;
-    normal = p.normal; sign_of = sign0 }
+  { first_dof = p.first_dof; second_dof = p.second_dof; tangent = p.tangent; normal = p.normal;
+    sign_of = sign0 }
 
 (** val sliding_poly : zero_claim -> slip_particle -> polynomial **)
 
@@ -2928,25 +2643,20 @@ let pressure_poly c p =
 (** val right_poly : unknown -> zero_claim -> slip_particle -> polynomial **)
 
 let right_poly u c p =
-  cone_poly u c.lifted_part
-    (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
+  cone_poly u c.lifted_part (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
 
 (** val left_poly : unknown -> zero_claim -> slip_particle -> polynomial **)
 
 let left_poly u c p =
   cone_poly u c.lifted_part (with_sign Big_int_Z.unit_big_int p)
 
-(** val row_state :
-    zero_claim -> Equality.sort -> polynomial -> reduction -> bool **)
+(** val row_state : zero_claim -> Equality.sort -> polynomial -> reduction -> bool **)
 
 let row_state c i g w =
   if (||)
+       (in_mem i (mem (seq_predType nat_eqType) (Obj.magic c.lifted_part.motion_claim.support)))
        (in_mem i
-         (mem (seq_predType nat_eqType)
-           (Obj.magic c.lifted_part.motion_claim.support)))
-       (in_mem i
-         (mem (seq_predType nat_eqType)
-           (Obj.magic c.lifted_part.motion_claim.biactive)))
+         (mem (seq_predType nat_eqType) (Obj.magic c.lifted_part.motion_claim.biactive)))
   then shows_zero c.lifted_part.motion_claim g w
   else shows_negative c.lifted_part.motion_claim g w
 
@@ -2960,40 +2670,29 @@ let zero_states z0 u c j =
     (negb
       ((&&)
         (in_mem (Obj.magic right z0 j)
-          (mem (seq_predType nat_eqType)
-            (Obj.magic c.lifted_part.motion_claim.support)))
+          (mem (seq_predType nat_eqType) (Obj.magic c.lifted_part.motion_claim.support)))
         (in_mem (Obj.magic left z0 j)
-          (mem (seq_predType nat_eqType)
-            (Obj.magic c.lifted_part.motion_claim.support)))))
+          (mem (seq_predType nat_eqType) (Obj.magic c.lifted_part.motion_claim.support)))))
     ((&&)
       (if in_mem (Obj.magic gap z0 j)
-            (mem (seq_predType nat_eqType)
-              (Obj.magic c.lifted_part.motion_claim.support))
-       then shows_negative c.lifted_part.motion_claim
-              (normal_poly c.lifted_part p) opening
-       else shows_zero c.lifted_part.motion_claim
-              (normal_poly c.lifted_part p) opening)
+            (mem (seq_predType nat_eqType) (Obj.magic c.lifted_part.motion_claim.support))
+       then shows_negative c.lifted_part.motion_claim (normal_poly c.lifted_part p) opening
+       else shows_zero c.lifted_part.motion_claim (normal_poly c.lifted_part p) opening)
       ((&&)
-        (row_state c (Obj.magic gap z0 j) (pressure_poly c p)
-          (witness c.pressure_reductions j))
+        (row_state c (Obj.magic gap z0 j) (pressure_poly c p) (witness c.pressure_reductions j))
         ((&&)
           (if in_mem (Obj.magic right z0 j)
-                (mem (seq_predType nat_eqType)
-                  (Obj.magic c.lifted_part.motion_claim.support))
-           then shows_positive c.lifted_part.motion_claim (sliding_poly c p)
-                  sliding
+                (mem (seq_predType nat_eqType) (Obj.magic c.lifted_part.motion_claim.support))
+           then shows_positive c.lifted_part.motion_claim (sliding_poly c p) sliding
            else if in_mem (Obj.magic left z0 j)
                      (mem (seq_predType nat_eqType)
                        (Obj.magic c.lifted_part.motion_claim.support))
-                then shows_negative c.lifted_part.motion_claim
-                       (sliding_poly c p) sliding
-                else shows_zero c.lifted_part.motion_claim (sliding_poly c p)
-                       sliding)
+                then shows_negative c.lifted_part.motion_claim (sliding_poly c p) sliding
+                else shows_zero c.lifted_part.motion_claim (sliding_poly c p) sliding)
           ((&&)
             (row_state c (Obj.magic right z0 j) (right_poly u c p)
               (witness c.right_reductions j))
-            (row_state c (Obj.magic left z0 j) (left_poly u c p)
-              (witness c.left_reductions j))))))
+            (row_state c (Obj.magic left z0 j) (left_poly u c p) (witness c.left_reductions j))))))
 
 (** val zero_variables : zero_system -> int list -> bool **)
 
@@ -3001,11 +2700,8 @@ let zero_variables z0 =
   all (fun i ->
     (&&) (leq (free_number z0.without_zero) i)
       (leq (Natural.succ i)
-        (addn
-          (addn (free_number z0.without_zero)
-            (size z0.without_zero.particles))
-          (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-            (size z0.zero_particles)))))
+        (addn (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+          (muln (Natural.succ (Natural.succ (Natural.succ 0))) (size z0.zero_particles)))))
 
 (** val check_zero : zero_system -> unknown -> zero_claim -> bool **)
 
@@ -3014,45 +2710,37 @@ let check_zero z0 u c =
     ((&&) (root_interval c.lifted_part.motion_claim)
       ((&&)
         (zero_variables z0
-          (cat c.lifted_part.motion_claim.support
-            c.lifted_part.motion_claim.biactive))
-        ((&&)
-          (all (balanced z0.without_zero u c.lifted_part)
-            (iota 0 z0.without_zero.dofs))
+          (cat c.lifted_part.motion_claim.support c.lifted_part.motion_claim.biactive))
+        ((&&) (all (balanced z0.without_zero u c.lifted_part) (iota 0 z0.without_zero.dofs))
           ((&&) (all (without_force c.lifted_part) z0.without_zero.free_dofs)
             ((&&)
               (all (fun d ->
                 (||)
                   (in_mem (Obj.magic d)
-                    (mem (seq_predType nat_eqType)
-                      (Obj.magic moving_with_zero z0)))
+                    (mem (seq_predType nat_eqType) (Obj.magic moving_with_zero z0)))
                   (at_rest c.lifted_part d)) (iota 0 z0.without_zero.dofs))
               ((&&)
                 (all (particle_states z0.without_zero u c.lifted_part)
                   (iota 0 (size z0.without_zero.particles)))
-                ((&&)
-                  (all (zero_states z0 u c) (iota 0 (size z0.zero_particles)))
+                ((&&) (all (zero_states z0 u c) (iota 0 (size z0.zero_particles)))
                   ((||)
                     (has (in_support z0.without_zero c.lifted_part)
                       (iota 0 (size z0.without_zero.particles)))
-                    (has (dof_moves c.lifted_part)
-                      (iota 0 z0.without_zero.dofs))))))))))
+                    (has (dof_moves c.lifted_part) (iota 0 z0.without_zero.dofs))))))))))
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
-type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
-                 lower_bound : bound; upper_bound : bound }
+type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int; lower_bound : bound;
+                 upper_bound : bound }
 
 type mcp = mcp_row list
 
-type mcp_point = { numerators : Big_int_Z.big_int list;
-                   denominator : Big_int_Z.big_int }
+type mcp_point = { numerators : Big_int_Z.big_int list; denominator : Big_int_Z.big_int }
 
 (** val no_row : mcp_row **)
 
 let no_row =
-  { row_m = []; row_q = Big_int_Z.zero_big_int; lower_bound = None;
-    upper_bound = None }
+  { row_m = []; row_q = Big_int_Z.zero_big_int; lower_bound = None; upper_bound = None }
 
 (** val mcp_row_at : mcp -> int -> mcp_row **)
 
@@ -3123,8 +2811,7 @@ let row_holds p z0 i =
 
 let check_point p z0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int z0.denominator)
-    ((&&)
-      (eq_op nat_eqType (Obj.magic size z0.numerators) (Obj.magic size p))
+    ((&&) (eq_op nat_eqType (Obj.magic size z0.numerators) (Obj.magic size p))
       (all (row_holds p z0) (iota 0 (size p))))
 
 (** val mcp_wellformed : mcp -> bool **)
@@ -3135,8 +2822,7 @@ let mcp_wellformed p =
 (** val check_mcp : mcp -> mcp_point list -> bool **)
 
 let check_mcp p points =
-  (&&) (mcp_wellformed p)
-    ((&&) (negb (nilp points)) (all (check_point p) points))
+  (&&) (mcp_wellformed p) ((&&) (negb (nilp points)) (all (check_point p) points))
 
 type value = { value_poly : polynomial; value_from : Big_int_Z.big_int;
                value_to : Big_int_Z.big_int; value_den : Big_int_Z.big_int }
@@ -3146,8 +2832,7 @@ type place =
 | Between of value * value
 | Above of value
 
-type near = { near_multiplier : Big_int_Z.big_int; near_power : int;
-              near_cofactor : polynomial }
+type near = { near_multiplier : Big_int_Z.big_int; near_power : int; near_cofactor : polynomial }
 
 type sign_evidence =
 | Identity
@@ -3155,28 +2840,27 @@ type sign_evidence =
 | Parts of near * point list * near
 
 (** val low_on :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-    -> Big_int_Z.big_int **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
 
 let low_on a b d p =
   fst (fst (horner_interval a b d p))
 
 (** val high_on :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-    -> Big_int_Z.big_int **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
 
 let high_on a b d p =
   snd (fst (horner_interval a b d p))
 
 (** val slope_interval :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-    ->
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
     ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int **)
 
 let rec slope_interval a b d = function
 | [] ->
-  (((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int),
-    Big_int_Z.unit_big_int), Big_int_Z.zero_big_int)
+  (((Big_int_Z.zero_big_int, Big_int_Z.zero_big_int), Big_int_Z.unit_big_int),
+    Big_int_Z.zero_big_int)
 | c :: p' ->
   let (p0, slope) = slope_interval a b d p' in
   let (p1, power) = p0 in
@@ -3189,16 +2873,15 @@ let rec slope_interval a b d = function
   (Big_int_Z.add_big_int
     (if Z.leb Big_int_Z.zero_big_int hi
      then Big_int_Z.mult_big_int b hi
-     else Big_int_Z.mult_big_int a hi) constant0)),
-  (Big_int_Z.mult_big_int power d)),
+     else Big_int_Z.mult_big_int a hi) constant0)), (Big_int_Z.mult_big_int power d)),
   (Big_int_Z.add_big_int (Big_int_Z.mult_big_int d lo)
     (if Z.leb Big_int_Z.zero_big_int slope
      then Big_int_Z.mult_big_int a slope
      else Big_int_Z.mult_big_int b slope)))
 
 (** val slope_low :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-    -> Big_int_Z.big_int **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
 
 let slope_low a b d p =
   snd (slope_interval a b d p)
@@ -3212,8 +2895,7 @@ let check_value v =
       ((&&) (Z.ltb Big_int_Z.zero_big_int d)
         ((&&) (Z.leb (high_on a a d p) Big_int_Z.zero_big_int)
           ((&&) (Z.leb Big_int_Z.zero_big_int (low_on b b d p))
-            ((||) (Big_int_Z.eq_big_int a b)
-              (Z.ltb Big_int_Z.zero_big_int (slope_low a b d p)))))))
+            ((||) (Big_int_Z.eq_big_int a b) (Z.ltb Big_int_Z.zero_big_int (slope_low a b d p)))))))
 
 (** val low_of : value -> polynomial -> Big_int_Z.big_int **)
 
@@ -3223,16 +2905,13 @@ let low_of v g =
 (** val same_poly : polynomial -> polynomial -> bool **)
 
 let same_poly p q =
-  zero_poly
-    (add_poly p
-      (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q))
+  zero_poly (add_poly p (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q))
 
 (** val reduces_by : polynomial -> polynomial -> reduction -> bool **)
 
 let reduces_by p g w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
-    (same_poly (scale_poly w.multiplier g)
-      (add_poly (mul_poly p w.quotient) w.rest))
+    (same_poly (scale_poly w.multiplier g) (add_poly (mul_poly p w.quotient) w.rest))
 
 (** val power_poly : polynomial -> int -> polynomial **)
 
@@ -3255,17 +2934,14 @@ let rational v =
 
 let positive_after v g w =
   (||) (rational v)
-    ((&&) (factors v.value_poly g w)
-      (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
+    ((&&) (factors v.value_poly g w) (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
 
 (** val positive_before : value -> polynomial -> near -> bool **)
 
 let positive_before v g w =
   (||) (rational v)
     ((&&)
-      (factors
-        (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-          v.value_poly) g w)
+      (factors (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) v.value_poly) g w)
       (Z.ltb Big_int_Z.zero_big_int (low_of v w.near_cofactor)))
 
 (** val moebius : point -> point -> polynomial -> polynomial * polynomial **)
@@ -3275,8 +2951,7 @@ let rec moebius l u = function
 | c :: g' ->
   let (numerator, power) = moebius l u g' in
   let power' = mul_poly ((snd l) :: ((snd u) :: [])) power in
-  ((add_poly (scale_poly c power')
-     (mul_poly ((fst l) :: ((fst u) :: [])) numerator)), power')
+  ((add_poly (scale_poly c power') (mul_poly ((fst l) :: ((fst u) :: [])) numerator)), power')
 
 (** val positive_on : bool -> point -> point -> polynomial -> bool **)
 
@@ -3287,8 +2962,7 @@ let positive_on open0 l u g =
      then has (fun c -> Z.ltb Big_int_Z.zero_big_int c) numerator
      else Z.ltb Big_int_Z.zero_big_int (head Big_int_Z.zero_big_int numerator))
 
-(** val positive_between :
-    bool -> point -> point list -> point -> polynomial -> bool **)
+(** val positive_between : bool -> point -> point list -> point -> polynomial -> bool **)
 
 let rec positive_between open0 l cuts u g =
   match cuts with
@@ -3314,8 +2988,7 @@ let positive_in pl g e =
   | PointAt v ->
     (match e with
      | Remainder w ->
-       (&&) (reduces_by v.value_poly g w)
-         (Z.ltb Big_int_Z.zero_big_int (low_of v w.rest))
+       (&&) (reduces_by v.value_poly g w) (Z.ltb Big_int_Z.zero_big_int (low_of v w.rest))
      | _ -> false)
   | Between (v, v') ->
     (match e with
@@ -3327,8 +3000,7 @@ let positive_in pl g e =
   | Above v ->
     (match e with
      | Parts (n, cuts, _) ->
-       (&&) (positive_after v g n)
-         (positive_between true (end_of v) cuts infinity g)
+       (&&) (positive_after v g n) (positive_between true (end_of v) cuts infinity g)
      | _ -> false)
 
 (** val zero_in : place -> polynomial -> sign_evidence -> bool **)
@@ -3365,8 +3037,8 @@ type refutation = { row_weights : poly_vector; weight_signs : signed list;
 
 type bound0 = { bounded : int; bound_signs : refutation }
 
-type branch = { branch_x : poly_vector; x_signs : signed list;
-                y_signs : signed list; alone_by : (int * bound0 list) option }
+type branch = { branch_x : poly_vector; x_signs : signed list; y_signs : signed list;
+                alone_by : (int * bound0 list) option }
 
 type reason =
 | Refuted of refutation
@@ -3377,8 +3049,7 @@ type chain =
 | Last of reason
 | Next of reason * value * reason * chain
 
-type support_leaf = { first_value : value; first_reason : reason;
-                      further : chain }
+type support_leaf = { first_value : value; first_reason : reason; further : chain }
 
 type holding = { held_place : place; held_alone : bool }
 
@@ -3389,9 +3060,7 @@ let shows pl g c =
   | IsZero -> zero_in pl g (snd c)
   | IsPositive -> positive_in pl g (snd c)
   | IsNegative ->
-    positive_in pl
-      (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) g) 
-      (snd c)
+    positive_in pl (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) g) (snd c)
 
 (** val is_zero : signed -> bool **)
 
@@ -3428,15 +3097,13 @@ let is_free q i =
 
 let moves q r i =
   (&&) (negb (is_free q i))
-    (is_moving
-      (state_of r (index nat_eqType (Obj.magic i) (Obj.magic slip q))))
+    (is_moving (state_of r (index nat_eqType (Obj.magic i) (Obj.magic slip q))))
 
 (** val rests : pencil -> region -> int -> bool **)
 
 let rests q r i =
   (&&) (negb (is_free q i))
-    (is_resting
-      (state_of r (index nat_eqType (Obj.magic i) (Obj.magic slip q))))
+    (is_resting (state_of r (index nat_eqType (Obj.magic i) (Obj.magic slip q))))
 
 (** val is_active : pencil -> region -> int -> bool **)
 
@@ -3464,20 +3131,17 @@ let column_poly q w j =
   foldr (fun i sum0 ->
     match component_of w i with
     | [] -> sum0
-    | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum0) []
-    (iota 0 q.order)
+    | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum0) [] (iota 0 q.order)
 
 (** val product_with : poly_vector -> sparse_row -> polynomial **)
 
 let product_with x row =
-  foldr (fun e sum0 ->
-    add_poly (scale_poly (snd e) (component_of x (fst e))) sum0) [] row
+  foldr (fun e sum0 -> add_poly (scale_poly (snd e) (component_of x (fst e))) sum0) [] row
 
 (** val row_poly : pencil -> poly_vector -> int -> polynomial **)
 
 let row_poly q x i =
-  add_poly (product_with x (row_a q i))
-    (Big_int_Z.zero_big_int :: (product_with x (row_b q i)))
+  add_poly (product_with x (row_a q i)) (Big_int_Z.zero_big_int :: (product_with x (row_b q i)))
 
 (** val check_refutation : pencil -> region -> place -> refutation -> bool **)
 
@@ -3492,12 +3156,10 @@ let check_refutation q r pl f =
       (all (fun j ->
         (||) (negb (is_active q r j))
           ((&&) (negb (is_positive (sign_at f.column_signs j)))
-            ((&&)
-              ((||) (negb (is_free q j)) (is_zero (sign_at f.column_signs j)))
-              (shows pl (column_poly q f.row_weights j)
-                (sign_at f.column_signs j))))) (iota 0 q.order))
-      (has (fun j ->
-        (&&) (moves q r j) (is_negative (sign_at f.column_signs j)))
+            ((&&) ((||) (negb (is_free q j)) (is_zero (sign_at f.column_signs j)))
+              (shows pl (column_poly q f.row_weights j) (sign_at f.column_signs j)))))
+        (iota 0 q.order))
+      (has (fun j -> (&&) (moves q r j) (is_negative (sign_at f.column_signs j)))
         (iota 0 q.order)))
 
 (** val check_branch : pencil -> region -> place -> branch -> bool **)
@@ -3509,24 +3171,18 @@ let check_branch q r pl b =
         (all (fun i ->
           (||) (negb (moves q r i))
             ((&&) (is_positive (sign_at b.x_signs i))
-              (shows pl (component_of b.branch_x i) (sign_at b.x_signs i))))
-          (iota 0 q.order))
+              (shows pl (component_of b.branch_x i) (sign_at b.x_signs i)))) (iota 0 q.order))
         ((&&)
           (all (fun i ->
             (||) (negb (rests q r i))
               ((&&) (is_zero (sign_at b.x_signs i))
-                (shows pl (component_of b.branch_x i) (sign_at b.x_signs i))))
-            (iota 0 q.order))
+                (shows pl (component_of b.branch_x i) (sign_at b.x_signs i)))) (iota 0 q.order))
           (all (fun i ->
             (&&) (negb (is_negative (sign_at b.y_signs i)))
-              ((&&)
-                ((||) (negb (is_active q r i))
-                  (is_zero (sign_at b.y_signs i)))
-                (shows pl (row_poly q b.branch_x i) (sign_at b.y_signs i))))
-            (iota 0 q.order)))))
+              ((&&) ((||) (negb (is_active q r i)) (is_zero (sign_at b.y_signs i)))
+                (shows pl (row_poly q b.branch_x i) (sign_at b.y_signs i)))) (iota 0 q.order)))))
 
-(** val check_bound :
-    pencil -> region -> place -> branch -> int -> bound0 -> bool **)
+(** val check_bound : pencil -> region -> place -> branch -> int -> bound0 -> bool **)
 
 let check_bound q r pl b k o =
   let f = o.bound_signs in
@@ -3536,19 +3192,17 @@ let check_bound q r pl b k o =
         (all (fun i ->
           (||) (negb (rests q r i))
             ((&&) (negb (is_negative (sign_at f.weight_signs i)))
-              ((&&)
-                ((||) (is_zero (sign_at f.weight_signs i))
-                  (is_zero (sign_at b.y_signs i)))
-                (shows pl (component_of f.row_weights i)
-                  (sign_at f.weight_signs i))))) (iota 0 q.order))
+              ((&&) ((||) (is_zero (sign_at f.weight_signs i)) (is_zero (sign_at b.y_signs i)))
+                (shows pl (component_of f.row_weights i) (sign_at f.weight_signs i)))))
+          (iota 0 q.order))
         (all (fun j ->
           (||) (negb (is_active q r j))
             ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
               ((&&)
                 ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic o.bounded))
                   (is_zero (sign_at f.column_signs j)))
-                (shows pl (column_poly q f.row_weights j)
-                  (sign_at f.column_signs j))))) (iota 0 q.order))))
+                (shows pl (column_poly q f.row_weights j) (sign_at f.column_signs j)))))
+          (iota 0 q.order))))
 
 (** val own_sign : bound0 -> claimed_sign * sign_evidence **)
 
@@ -3569,12 +3223,10 @@ let check_alone q r pl b =
               ((||) (eq_op nat_eqType (Obj.magic j) (Obj.magic k))
                 ((&&)
                   (has (fun o ->
-                    (&&)
-                      (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
+                    (&&) (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
                       (is_positive (own_sign o))) bounds)
                   (has (fun o ->
-                    (&&)
-                      (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
+                    (&&) (eq_op nat_eqType (Obj.magic o.bounded) (Obj.magic j))
                       (is_negative (own_sign o))) bounds)))) (iota 0 q.order))))
   | None -> true
 
@@ -3596,9 +3248,7 @@ let inside r pl =
        ((&&) (below0 v')
          (Z.ltb (Big_int_Z.mult_big_int v.value_to v'.value_den)
            (Big_int_Z.mult_big_int v'.value_from v.value_den)))
-   | Above v ->
-     (&&) (above0 v)
-       (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
+   | Above v -> (&&) (above0 v) (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
 
 (** val check_reason : pencil -> region -> place -> reason -> bool **)
 
@@ -3606,23 +3256,19 @@ let check_reason q r pl e =
   (&&) (place_checked pl)
     (match e with
      | Refuted f -> check_refutation q r pl f
-     | Solved b ->
-       (&&) (inside r pl)
-         ((&&) (check_branch q r pl b) (check_alone q r pl b)))
+     | Solved b -> (&&) (inside r pl) ((&&) (check_branch q r pl b) (check_alone q r pl b)))
 
 (** val chain_places : value -> chain -> (place * reason) list **)
 
 let rec chain_places v = function
 | Stop -> []
 | Last e -> ((Above v), e) :: []
-| Next (e, v', e', c') ->
-  ((Between (v, v')), e) :: (((PointAt v'), e') :: (chain_places v' c'))
+| Next (e, v', e', c') -> ((Between (v, v')), e) :: (((PointAt v'), e') :: (chain_places v' c'))
 
 (** val leaf_places : support_leaf -> (place * reason) list **)
 
 let leaf_places l =
-  ((PointAt l.first_value),
-    l.first_reason) :: (chain_places l.first_value l.further)
+  ((PointAt l.first_value), l.first_reason) :: (chain_places l.first_value l.further)
 
 (** val reaches_end : region -> value -> chain -> bool **)
 
@@ -3650,8 +3296,7 @@ let check_support q r l =
 let holding_of pe =
   match snd pe with
   | Refuted _ -> None
-  | Solved b ->
-    Some { held_place = (fst pe); held_alone = (isSome b.alone_by) }
+  | Solved b -> Some { held_place = (fst pe); held_alone = (isSome b.alone_by) }
 
 (** val holdings : support_leaf -> holding list **)
 
@@ -3677,8 +3322,7 @@ let ends_before v v' =
 (** val away : value -> place -> bool **)
 
 let away v = function
-| PointAt v' ->
-  (||) (same_value v v') ((||) (ends_before v v') (ends_before v' v))
+| PointAt v' -> (||) (same_value v v') ((||) (ends_before v v') (ends_before v' v))
 | Between (v', v'') -> (||) (ends_before v v') (ends_before v'' v)
 | Above v' -> ends_before v v'
 
@@ -3689,17 +3333,15 @@ let isolated_value l h =
   (match held_place0 with
    | PointAt v ->
      if held_alone0
-     then if all (fun h' -> away v h'.held_place) (holdings l)
-          then Some v
-          else None
+     then if all (fun h' -> away v h'.held_place) (holdings l) then Some v else None
      else None
    | _ -> None)
 
 (** val yield_of : region -> value -> yield **)
 
 let yield_of r v =
-  { yield_region = { lower = (start_of v); upper = (end_of v); states =
-    r.states }; yield_from = (start_of v); yield_to = (end_of v) }
+  { yield_region = { lower = (start_of v); upper = (end_of v); states = r.states };
+    yield_from = (start_of v); yield_to = (end_of v) }
 
 (** val isolated_in : region -> support_leaf -> yield list **)
 
@@ -3709,47 +3351,38 @@ let isolated_in r l =
 (** val families_in : region -> support_leaf -> family list **)
 
 let families_in r l =
-  map0 (fun h -> (r, h))
-    (filter (fun h -> negb (isSome (isolated_value l h))) (holdings l))
+  map0 (fun h -> (r, h)) (filter (fun h -> negb (isSome (isolated_value l h))) (holdings l))
 
 (** val pairs :
-    region list -> support_leaf option list -> (region * support_leaf option)
-    list **)
+    region list -> support_leaf option list -> (region * support_leaf option) list **)
 
 let pairs =
   zip
 
-(** val check_supports :
-    pencil -> region list -> support_leaf option list -> bool **)
+(** val check_supports : pencil -> region list -> support_leaf option list -> bool **)
 
 let check_supports q rs ls =
   (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size ls))
     (all (fun rl ->
       match snd rl with
-      | Some l ->
-        (&&) (ordered (fst rl).lower (fst rl).upper)
-          (check_support q (fst rl) l)
+      | Some l -> (&&) (ordered (fst rl).lower (fst rl).upper) (check_support q (fst rl) l)
       | None -> true) (pairs rs ls))
 
-(** val isolated_of :
-    region list -> support_leaf option list -> yield list **)
+(** val isolated_of : region list -> support_leaf option list -> yield list **)
 
 let isolated_of rs ls =
   flatten
-    (map0 (fun rl ->
-      match snd rl with
-      | Some l -> isolated_in (fst rl) l
-      | None -> []) (pairs rs ls))
+    (map0 (fun rl -> match snd rl with
+                     | Some l -> isolated_in (fst rl) l
+                     | None -> []) (pairs rs ls))
 
-(** val families_of :
-    region list -> support_leaf option list -> family list **)
+(** val families_of : region list -> support_leaf option list -> family list **)
 
 let families_of rs ls =
   flatten
-    (map0 (fun rl ->
-      match snd rl with
-      | Some l -> families_in (fst rl) l
-      | None -> []) (pairs rs ls))
+    (map0 (fun rl -> match snd rl with
+                     | Some l -> families_in (fst rl) l
+                     | None -> []) (pairs rs ls))
 
 (** val open_of : region list -> support_leaf option list -> region list **)
 
@@ -3763,24 +3396,19 @@ let open_of rs ls =
 let belongs n y f =
   (&&)
     (match (snd f).held_place with
-     | PointAt v ->
-       (&&) (rational v) (within (value_of y) ((start_of v), (end_of v)))
+     | PointAt v -> (&&) (rational v) (within (value_of y) ((start_of v), (end_of v)))
      | Between (v, v') ->
-       (&&) (point_lt (end_of v) y.yield_from)
-         (point_lt y.yield_to (start_of v'))
-     | Above v -> point_lt (end_of v) y.yield_from)
-    (all_same n y.yield_region (fst f))
+       (&&) (point_lt (end_of v) y.yield_from) (point_lt y.yield_to (start_of v'))
+     | Above v -> point_lt (end_of v) y.yield_from) (all_same n y.yield_region (fst f))
 
-(** val add_lists :
-    ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
+(** val add_lists : ('a1 -> 'a1 -> 'a1) -> 'a1 list -> 'a1 list -> 'a1 list **)
 
 let rec add_lists add p q =
   match p with
   | [] -> q
-  | a :: p' ->
-    (match q with
-     | [] -> p
-     | b :: q' -> (add a b) :: (add_lists add p' q'))
+  | a :: p' -> (match q with
+                | [] -> p
+                | b :: q' -> (add a b) :: (add_lists add p' q'))
 
 (** val add_matrix : matrix -> matrix -> matrix **)
 
@@ -3832,8 +3460,7 @@ let cross cx cy =
 let cross_series n x y =
   let cys = map0 (fun m -> columns_of n m) y in
   foldr (fun m s ->
-    let cx = columns_of n m in
-    add_series (map0 (fun cy -> cross cx cy) cys) ([] :: s)) [] x
+    let cx = columns_of n m in add_series (map0 (fun cy -> cross cx cy) cys) ([] :: s)) [] x
 
 (** val squares : Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
@@ -3855,20 +3482,17 @@ let root_bits =
             (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
             Big_int_Z.unit_big_int))))))))))))
 
-(** val refined :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+(** val refined : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let refined x s =
   if (&&) (Z.ltb x root_bits)
        (Z.ltb x
-         (Big_int_Z.mult_big_int
-           (Big_int_Z.sub_big_int s Big_int_Z.unit_big_int)
+         (Big_int_Z.mult_big_int (Big_int_Z.sub_big_int s Big_int_Z.unit_big_int)
            (Big_int_Z.sub_big_int s Big_int_Z.unit_big_int)))
   then Big_int_Z.sub_big_int s Big_int_Z.unit_big_int
   else s
 
-(** val root_above :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
+(** val root_above : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int **)
 
 let rec root_above digits x =
   (fun f2p1 f2p f1 p ->
@@ -3877,18 +3501,16 @@ let rec root_above digits x =
   if Big_int_Z.eq_big_int r Big_int_Z.zero_big_int then f2p q else f2p1 q)
     (fun d ->
     refined x
-      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-        Big_int_Z.unit_big_int)
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
         (root_above d
-          (Z.div x (Big_int_Z.mult_int_big_int 2
-            (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))))
+          (Z.div x (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+            Big_int_Z.unit_big_int))))))
     (fun d ->
     refined x
-      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-        Big_int_Z.unit_big_int)
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
         (root_above d
-          (Z.div x (Big_int_Z.mult_int_big_int 2
-            (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))))))
+          (Z.div x (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+            Big_int_Z.unit_big_int))))))
     (fun _ -> Big_int_Z.add_big_int x Big_int_Z.unit_big_int)
     digits
 
@@ -3899,8 +3521,7 @@ let root_up x =
   if s = 0 then fO () else if s > 0 then fp z
   else fn (Big_int_Z.minus_big_int z))
     (fun _ -> Big_int_Z.zero_big_int)
-    (fun p ->
-    root_above p (Big_int_Z.sub_big_int x Big_int_Z.unit_big_int))
+    (fun p -> root_above p (Big_int_Z.sub_big_int x Big_int_Z.unit_big_int))
     (fun _ -> Big_int_Z.zero_big_int)
     x
 
@@ -3927,21 +3548,19 @@ let rec derivative = function
 let homogeneous x y p =
   foldr (fun c s ->
     let power = Big_int_Z.mult_big_int (snd s) y in
-    ((Big_int_Z.add_big_int (Big_int_Z.mult_big_int c power)
-       (Big_int_Z.mult_big_int x (fst s))), power)) (Big_int_Z.zero_big_int,
-    Big_int_Z.unit_big_int) p
+    ((Big_int_Z.add_big_int (Big_int_Z.mult_big_int c power) (Big_int_Z.mult_big_int x (fst s))),
+    power)) (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) p
 
 (** val substituted :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-    -> polynomial * Big_int_Z.big_int **)
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    polynomial * Big_int_Z.big_int **)
 
 let substituted x v y p =
   foldr (fun c s ->
     let power = Big_int_Z.mult_big_int (snd s) y in
     ((add_poly ((Big_int_Z.mult_big_int c power) :: [])
-       (add_poly (scale_poly x (fst s))
-         (Big_int_Z.zero_big_int :: (scale_poly v (fst s))))), power)) ([],
-    Big_int_Z.unit_big_int) p
+       (add_poly (scale_poly x (fst s)) (Big_int_Z.zero_big_int :: (scale_poly v (fst s))))),
+    power)) ([], Big_int_Z.unit_big_int) p
 
 (** val spread_of : polynomial -> Big_int_Z.big_int **)
 
@@ -3979,13 +3598,10 @@ type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
                 anchor_scale : Big_int_Z.big_int list }
 
 type anchor_family = { series_z : matrix list; left_norms : polynomial list;
-                       right_norms : polynomial list;
-                       drift : Big_int_Z.big_int }
+                       right_norms : polynomial list; drift : Big_int_Z.big_int }
 
-type local_entry = { local_a : Big_int_Z.big_int;
-                     local_b : Big_int_Z.big_int;
-                     local_ra : Big_int_Z.big_int;
-                     local_rb : Big_int_Z.big_int }
+type local_entry = { local_a : Big_int_Z.big_int; local_b : Big_int_Z.big_int;
+                     local_ra : Big_int_Z.big_int; local_rb : Big_int_Z.big_int }
 
 type local_leaf =
 | LocalFarkas of Big_int_Z.big_int list
@@ -4013,8 +3629,7 @@ let ff_block q row =
 
 let fs_block q row =
   let columns = slip q in
-  map0 (fun i ->
-    let entries = row i in map0 (fun j -> lookup entries j) columns) q.free
+  map0 (fun i -> let entries = row i in map0 (fun j -> lookup entries j) columns) q.free
 
 (** val sf_block : pencil -> (int -> sparse_row) -> matrix **)
 
@@ -4026,12 +3641,10 @@ let sf_block q row =
 
 let ss_block q row =
   let columns = slip q in
-  map0 (fun i ->
-    let entries = row i in map0 (fun j -> lookup entries j) columns) columns
+  map0 (fun i -> let entries = row i in map0 (fun j -> lookup entries j) columns) columns
 
 (** val residual_series :
-    anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix
-    list -> matrix list **)
+    anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list -> matrix list **)
 
 let residual_series a f0 f1 y x =
   add_series (scale_series a.anchor_unit y)
@@ -4049,8 +3662,8 @@ let center_series q a r =
       (add_series
         (scale_series u
           (cross_series (size (slip q))
-            ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
-            a.anchor_right)) (cross_series (size (slip q)) a.anchor_left r)))
+            ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: [])) a.anchor_right))
+        (cross_series (size (slip q)) a.anchor_left r)))
 
 (** val row_sum : sparse_row -> Big_int_Z.big_int **)
 
@@ -4059,8 +3672,7 @@ let row_sum row =
     Big_int_Z.zero_big_int row
 
 (** val expand_from :
-    pencil -> anchor -> sparse_row list -> matrix list -> matrix list ->
-    anchor_family **)
+    pencil -> anchor -> sparse_row list -> matrix list -> matrix list -> anchor_family **)
 
 let expand_from q a f1 l r =
   { series_z = (center_series q a r); left_norms =
@@ -4079,21 +3691,18 @@ let expand q a =
   let f0 = ff_block q (row_0 q a) in
   let f1 = ff_block q (row_1 q a) in
   let l =
-    residual_series a f0 f1
-      ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
+    residual_series a f0 f1 ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
       a.anchor_left
   in
   let r =
-    residual_series a f0 f1
-      ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
+    residual_series a f0 f1 ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
       a.anchor_right
   in
   if (&&) (Z.ltb Big_int_Z.zero_big_int (snd a.anchor_center))
        ((&&) (Z.ltb Big_int_Z.zero_big_int a.anchor_unit)
          ((&&)
            (all (fun i ->
-             Z.ltb Big_int_Z.zero_big_int
-               (nth Big_int_Z.zero_big_int a.anchor_scale i))
+             Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int a.anchor_scale i))
              (iota 0 (size (slip q))))
            ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
   then Some (expand_from q a f1 l r)
@@ -4109,8 +3718,7 @@ let interval_width lo hi =
 
 let offset a lo hi =
   Big_int_Z.mult_big_int
-    (Big_int_Z.sub_big_int
-      (Big_int_Z.mult_big_int (fst lo) (snd a.anchor_center))
+    (Big_int_Z.sub_big_int (Big_int_Z.mult_big_int (fst lo) (snd a.anchor_center))
       (Big_int_Z.mult_big_int (fst a.anchor_center) (snd lo))) (snd hi)
 
 (** val extent : anchor -> point -> point -> Big_int_Z.big_int **)
@@ -4121,35 +3729,30 @@ let extent a lo hi =
 (** val unit_y : anchor -> point -> point -> Big_int_Z.big_int **)
 
 let unit_y a lo hi =
-  Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd lo) (snd hi))
-    (snd a.anchor_center)
+  Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd lo) (snd hi)) (snd a.anchor_center)
 
 (** val reach : anchor -> point -> point -> Big_int_Z.big_int **)
 
 let reach a lo hi =
   Big_int_Z.max_big_int (Big_int_Z.abs_big_int (offset a lo hi))
-    (Big_int_Z.abs_big_int
-      (Big_int_Z.add_big_int (offset a lo hi) (extent a lo hi)))
+    (Big_int_Z.abs_big_int (Big_int_Z.add_big_int (offset a lo hi) (extent a lo hi)))
 
-(** val bound_n :
-    anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+(** val bound_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
 
 let bound_n a low_a low_b lo =
   Big_int_Z.mult_big_int (snd a.anchor_center)
     (Big_int_Z.add_big_int
-      (Big_int_Z.mult_big_int
-        (Big_int_Z.mult_big_int low_a.bound_at low_b.bound_times) (snd lo))
-      (Big_int_Z.mult_big_int
-        (Big_int_Z.mult_big_int (fst lo) low_b.bound_at) low_a.bound_times))
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int low_a.bound_at low_b.bound_times)
+        (snd lo))
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst lo) low_b.bound_at)
+        low_a.bound_times))
 
 (** val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int **)
 
 let bound_d0 low_a low_b lo =
-  Big_int_Z.mult_big_int
-    (Big_int_Z.mult_big_int low_a.bound_times low_b.bound_times) (snd lo)
+  Big_int_Z.mult_big_int (Big_int_Z.mult_big_int low_a.bound_times low_b.bound_times) (snd lo)
 
-(** val proper_interval :
-    anchor -> form_bound -> form_bound -> point -> point -> bool **)
+(** val proper_interval : anchor -> form_bound -> form_bound -> point -> point -> bool **)
 
 let proper_interval a low_a low_b lo hi =
   (&&) (Z.leb Big_int_Z.zero_big_int (fst lo))
@@ -4160,23 +3763,22 @@ let proper_interval a low_a low_b lo hi =
 
 (** val remainder_radius :
     anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    Big_int_Z.big_int **)
 
 let remainder_radius a low_a low_b lo power nl nr =
   divide_up
     (Big_int_Z.mult_big_int
-      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (fst nl))
-        (fst nr)) (bound_d0 low_a low_b lo))
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (fst nl)) (fst nr))
+      (bound_d0 low_a low_b lo))
     (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd nl) (snd nr))
       (bound_n a low_a low_b lo))
 
 (** val remainder_slope :
-    anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
-    Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int **)
+    anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> Big_int_Z.big_int
+    -> (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    Big_int_Z.big_int **)
 
 let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
   Big_int_Z.add_big_int
@@ -4184,89 +3786,73 @@ let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
       (divide_up
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int
-            (Big_int_Z.mult_big_int
-              (Big_int_Z.mult_big_int power (extent a lo hi)) (fst dl))
+            (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (extent a lo hi)) (fst dl))
             (fst nr)) (bound_d0 low_a low_b lo))
         (Big_int_Z.mult_big_int
-          (Big_int_Z.mult_big_int
-            (Big_int_Z.mult_big_int (unit_y a lo hi) (snd dl)) (snd nr))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (unit_y a lo hi) (snd dl)) (snd nr))
           (bound_n a low_a low_b lo)))
       (divide_up
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int
-            (Big_int_Z.mult_big_int
-              (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
+            (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
             (fst dr)) (bound_d0 low_a low_b lo))
         (Big_int_Z.mult_big_int
-          (Big_int_Z.mult_big_int
-            (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd dr))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd dr))
           (bound_n a low_a low_b lo))))
     (divide_up
       (Big_int_Z.mult_big_int
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int
             (Big_int_Z.mult_big_int
-              (Big_int_Z.mult_big_int
-                (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
-              (fst nr)) fam.drift) (bound_d0 low_a low_b lo))
-        (bound_d0 low_a low_b lo))
+              (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
+              (fst nr)) fam.drift) (bound_d0 low_a low_b lo)) (bound_d0 low_a low_b lo))
       (Big_int_Z.mult_big_int
         (Big_int_Z.mult_big_int
-          (Big_int_Z.mult_big_int
-            (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd nr))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd nr))
           (bound_n a low_a low_b lo)) (bound_n a low_a low_b lo)))
 
 (** val entry_of :
-    anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
-    bool -> polynomial -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry **)
+    anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool -> polynomial
+    -> (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+    local_entry **)
 
 let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
   let c = substituted (offset a lo hi) (extent a lo hi) (unit_y a lo hi) z0 in
   let rb =
     if slopes
     then Big_int_Z.add_big_int
-           (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-             (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-             Big_int_Z.unit_big_int))) (spread0 (fst c)))
-           (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-             (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
+           (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))) (spread0 (fst c)))
+           (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+             Big_int_Z.unit_big_int))
              (remainder_slope a low_a low_b fam lo hi (snd c) nl nr dl dr))
     else Big_int_Z.zero_big_int
   in
   { local_a =
-  (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-    (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
-    (constant_of (fst c))); local_b =
-  (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-    (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)) (chord_of (fst c)));
-  local_ra =
+  (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+    Big_int_Z.unit_big_int)) (constant_of (fst c))); local_b =
+  (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+    Big_int_Z.unit_big_int)) (chord_of (fst c))); local_ra =
   (Big_int_Z.add_big_int
     (Big_int_Z.add_big_int (spread0 (fst c))
-      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-        (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int))
-        (remainder_radius a low_a low_b lo (snd c) nl nr))) rb); local_rb =
-  rb }
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+        Big_int_Z.unit_big_int)) (remainder_radius a low_a low_b lo (snd c) nl nr))) rb);
+  local_rb = rb }
 
-(** val rounded :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry **)
+(** val rounded : Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry **)
 
 let rounded grain scale e =
-  { local_a = (Z.div (Big_int_Z.mult_big_int scale e.local_a) grain);
-    local_b = (Z.div (Big_int_Z.mult_big_int scale e.local_b) grain);
-    local_ra =
-    (Big_int_Z.add_big_int
-      (divide_up (Big_int_Z.mult_big_int scale e.local_ra) grain)
+  { local_a = (Z.div (Big_int_Z.mult_big_int scale e.local_a) grain); local_b =
+    (Z.div (Big_int_Z.mult_big_int scale e.local_b) grain); local_ra =
+    (Big_int_Z.add_big_int (divide_up (Big_int_Z.mult_big_int scale e.local_ra) grain)
       Big_int_Z.unit_big_int); local_rb =
-    (Big_int_Z.add_big_int
-      (divide_up (Big_int_Z.mult_big_int scale e.local_rb) grain)
+    (Big_int_Z.add_big_int (divide_up (Big_int_Z.mult_big_int scale e.local_rb) grain)
       Big_int_Z.unit_big_int) }
 
 (** val local_entries :
-    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-    point -> bool -> Big_int_Z.big_int -> local_entry list list **)
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool ->
+    Big_int_Z.big_int -> local_entry list list **)
 
 let local_entries ns a low_a low_b fam lo hi slopes grain =
   let at_reach = homogeneous (reach a lo hi) (unit_y a lo hi) in
@@ -4274,26 +3860,23 @@ let local_entries ns a low_a low_b fam lo hi slopes grain =
   let nr = map0 at_reach fam.right_norms in
   let dl = map0 (fun n -> at_reach (derivative n)) fam.left_norms in
   let dr = map0 (fun n -> at_reach (derivative n)) fam.right_norms in
-  let get = fun l i ->
-    nth (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) l i
-  in
+  let get = fun l i -> nth (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int) l i in
   map0 (fun i ->
     map0 (fun j ->
       rounded grain (nth Big_int_Z.zero_big_int a.anchor_scale i)
-        (entry_of a low_a low_b fam lo hi slopes (poly_of fam.series_z i j)
-          (get nl i) (get nr j) (get dl i) (get dr j))) (iota 0 ns))
-    (iota 0 ns)
+        (entry_of a low_a low_b fam lo hi slopes (poly_of fam.series_z i j) (get nl i)
+          (get nr j) (get dl i) (get dr j))) (iota 0 ns)) (iota 0 ns)
 
 (** val local_pencil :
-    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-    point -> bool -> Big_int_Z.big_int -> enclosed **)
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool ->
+    Big_int_Z.big_int -> enclosed **)
 
 let local_pencil ns a low_a low_b fam lo hi slopes grain =
   let t = local_entries ns a low_a low_b fam lo hi slopes grain in
   let table0 = fun f -> map0 (fun row -> map0 f row) t in
   { size_of = ns; center_a = (table0 (fun l -> l.local_a)); center_b =
-  (table0 (fun l -> l.local_b)); radius_a = (table0 (fun l -> l.local_ra));
-  radius_b = (table0 (fun l -> l.local_rb)) }
+  (table0 (fun l -> l.local_b)); radius_a = (table0 (fun l -> l.local_ra)); radius_b =
+  (table0 (fun l -> l.local_rb)) }
 
 (** val local_point : point -> point -> point -> point **)
 
@@ -4306,17 +3889,15 @@ let local_point lo hi e =
 (** val local_isolation : point -> point -> isolation -> isolation **)
 
 let local_isolation lo hi c =
-  { pivot = c.pivot; vector = c.vector; from_point =
-    (local_point lo hi c.from_point); to_point =
-    (local_point lo hi c.to_point); wide_box = c.wide_box; narrow_box =
+  { pivot = c.pivot; vector = c.vector; from_point = (local_point lo hi c.from_point);
+    to_point = (local_point lo hi c.to_point); wide_box = c.wide_box; narrow_box =
     c.narrow_box; unique = c.unique; left_vector = c.left_vector }
 
 (** val local_known : point -> point -> known -> known **)
 
 let local_known lo hi q =
-  { known_from = (local_point lo hi q.known_from); known_to =
-    (local_point lo hi q.known_to); known_support = q.known_support;
-    known_biactive = q.known_biactive }
+  { known_from = (local_point lo hi q.known_from); known_to = (local_point lo hi q.known_to);
+    known_support = q.known_support; known_biactive = q.known_biactive }
 
 (** val moved_leaf : point -> point -> local_leaf -> local_leaf **)
 
@@ -4335,8 +3916,8 @@ let wants_slopes = function
 (** val local_region : region -> region **)
 
 let local_region r =
-  { lower = (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int); upper =
-    (Big_int_Z.unit_big_int, Big_int_Z.unit_big_int); states = r.states }
+  { lower = (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int); upper = (Big_int_Z.unit_big_int,
+    Big_int_Z.unit_big_int); states = r.states }
 
 (** val check_local : enclosed -> region -> local_leaf -> bool **)
 
@@ -4347,35 +3928,33 @@ let check_local p r = function
 | LocalRoot (c, o) -> check_root p r c o
 
 (** val check_anchored :
-    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-    point -> region -> Big_int_Z.big_int -> local_leaf -> bool **)
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> region ->
+    Big_int_Z.big_int -> local_leaf -> bool **)
 
 let check_anchored ns a low_a low_b fam lo hi r grain l =
   (&&) (proper_interval a low_a low_b lo hi)
     ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
-      (check_local
-        (local_pencil ns a low_a low_b fam lo hi (wants_slopes l) grain)
+      (check_local (local_pencil ns a low_a low_b fam lo hi (wants_slopes l) grain)
         (local_region r) (moved_leaf lo hi l)))
 
 (** val check_anchored_claim :
-    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-    point -> region -> Big_int_Z.big_int -> pinning -> known -> bool **)
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> region ->
+    Big_int_Z.big_int -> pinning -> known -> bool **)
 
 let check_anchored_claim ns a low_a low_b fam lo hi r grain c q =
   (&&) (proper_interval a low_a low_b lo hi)
     ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
-      (check_claimed (local_pencil ns a low_a low_b fam lo hi true grain)
-        (local_region r) c (local_known lo hi q)))
+      (check_claimed (local_pencil ns a low_a low_b fam lo hi true grain) (local_region r) c
+        (local_known lo hi q)))
 
 (** val check_anchored_limit :
-    int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-    point -> region -> Big_int_Z.big_int -> pinning -> bool **)
+    int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> region ->
+    Big_int_Z.big_int -> pinning -> bool **)
 
 let check_anchored_limit ns a low_a low_b fam lo hi r grain c =
   (&&) (proper_interval a low_a low_b lo hi)
     ((&&) (Z.ltb Big_int_Z.zero_big_int grain)
-      (pinned (local_pencil ns a low_a low_b fam lo hi true grain)
-        (local_region r) c))
+      (pinned (local_pencil ns a low_a low_b fam lo hi true grain) (local_region r) c))
 
 type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
                    anchors : (bool * anchor) list }
@@ -4383,8 +3962,7 @@ type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
 type varying_leaf =
 | OfAnchor of int * Big_int_Z.big_int * interval * local_leaf
 | OfClaim of int * Big_int_Z.big_int * interval * pinning * int
-| OfLimit of int * Big_int_Z.big_int * interval * pinning
-   * Big_int_Z.big_int list
+| OfLimit of int * Big_int_Z.big_int * interval * pinning * Big_int_Z.big_int list
 | OfWhole of whole
 | LeftOpen
 
@@ -4401,9 +3979,9 @@ let swap_region r =
 (** val swap_isolation : isolation -> isolation **)
 
 let swap_isolation c =
-  { pivot = c.pivot; vector = c.vector; from_point = (swap c.to_point);
-    to_point = (swap c.from_point); wide_box = c.wide_box; narrow_box =
-    c.narrow_box; unique = c.unique; left_vector = c.left_vector }
+  { pivot = c.pivot; vector = c.vector; from_point = (swap c.to_point); to_point =
+    (swap c.from_point); wide_box = c.wide_box; narrow_box = c.narrow_box; unique = c.unique;
+    left_vector = c.left_vector }
 
 (** val swap_leaf : local_leaf -> local_leaf **)
 
@@ -4414,8 +3992,8 @@ let swap_leaf l = match l with
 (** val swap_known : known -> known **)
 
 let swap_known q =
-  { known_from = (swap q.known_to); known_to = (swap q.known_from);
-    known_support = q.known_support; known_biactive = q.known_biactive }
+  { known_from = (swap q.known_to); known_to = (swap q.known_from); known_support =
+    q.known_support; known_biactive = q.known_biactive }
 
 (** val expand_anchor : pencil -> (bool * anchor) -> anchor_family option **)
 
@@ -4425,8 +4003,8 @@ let expand_anchor q ra =
 (** val no_anchor : bool * anchor **)
 
 let no_anchor =
-  (false, { anchor_center = zero; anchor_unit = Big_int_Z.zero_big_int;
-    anchor_right = []; anchor_left = []; anchor_scale = [] })
+  (false, { anchor_center = zero; anchor_unit = Big_int_Z.zero_big_int; anchor_right = [];
+    anchor_left = []; anchor_scale = [] })
 
 (** val expansions : pencil -> anchoring -> anchor_family option list **)
 
@@ -4439,29 +4017,25 @@ let finite_root = function
 | LocalRoot (c, _) -> Z.ltb Big_int_Z.zero_big_int (snd c.to_point)
 | _ -> true
 
-(** val check_direction :
-    pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+(** val check_direction : pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
 
 let check_direction q r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
     ((&&) (negb (Big_int_Z.eq_big_int (at_slip k) Big_int_Z.zero_big_int))
       ((&&)
-        (all (fun i ->
-          Big_int_Z.eq_big_int (sparse_dot (row_b q i) x)
-            Big_int_Z.zero_big_int) q.free)
+        (all (fun i -> Big_int_Z.eq_big_int (sparse_dot (row_b q i) x) Big_int_Z.zero_big_int)
+          q.free)
         (all (fun j ->
           if is_moving (state_of r j)
-          then Big_int_Z.eq_big_int
-                 (sparse_dot (row_b q (nth 0 (slip q) j)) x)
+          then Big_int_Z.eq_big_int (sparse_dot (row_b q (nth 0 (slip q) j)) x)
                  Big_int_Z.zero_big_int
           else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
           (iota 0 (size (slip q))))))
 
 (** val at_anchor :
-    anchoring -> anchor_family option list -> int -> region -> (bool ->
-    anchor -> form_bound -> form_bound -> anchor_family -> region -> bool) ->
-    bool **)
+    anchoring -> anchor_family option list -> int -> region -> (bool -> anchor -> form_bound ->
+    form_bound -> anchor_family -> region -> bool) -> bool **)
 
 let at_anchor w families0 n r check =
   let (reverse, a) = nth no_anchor w.anchors n in
@@ -4474,8 +4048,8 @@ let at_anchor w families0 n r check =
    | None -> false)
 
 (** val leaf_at :
-    pencil -> Big_int_Z.big_int -> local_leaf -> bool -> anchor -> form_bound
-    -> form_bound -> anchor_family -> region -> bool **)
+    pencil -> Big_int_Z.big_int -> local_leaf -> bool -> anchor -> form_bound -> form_bound ->
+    anchor_family -> region -> bool **)
 
 let leaf_at q grain e reverse a low_a low_b fam r =
   (&&) ((||) (negb reverse) (finite_root e))
@@ -4483,56 +4057,48 @@ let leaf_at q grain e reverse a low_a low_b fam r =
       (if reverse then swap_leaf e else e))
 
 (** val claim_at :
-    pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor ->
-    form_bound -> form_bound -> anchor_family -> region -> bool **)
+    pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor -> form_bound ->
+    form_bound -> anchor_family -> region -> bool **)
 
 let claim_at q grain c q0 reverse a low_a low_b fam r =
-  (&&)
-    ((||) (negb reverse) (Z.ltb Big_int_Z.zero_big_int (fst q0.known_from)))
-    (check_anchored_claim (size (slip q)) a low_a low_b fam r.lower r.upper r
-      grain c (if reverse then swap_known q0 else q0))
+  (&&) ((||) (negb reverse) (Z.ltb Big_int_Z.zero_big_int (fst q0.known_from)))
+    (check_anchored_claim (size (slip q)) a low_a low_b fam r.lower r.upper r grain c
+      (if reverse then swap_known q0 else q0))
 
 (** val limit_at :
-    pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool
-    -> anchor -> form_bound -> form_bound -> anchor_family -> region -> bool **)
+    pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool -> anchor ->
+    form_bound -> form_bound -> anchor_family -> region -> bool **)
 
 let limit_at q grain c x reverse a low_a low_b fam r =
   (&&) reverse
     ((&&) (Big_int_Z.eq_big_int (fst r.lower) Big_int_Z.zero_big_int)
       ((&&) (check_direction q r c.pin_pivot x)
-        (check_anchored_limit (size (slip q)) a low_a low_b fam r.lower
-          r.upper r grain c)))
+        (check_anchored_limit (size (slip q)) a low_a low_b fam r.lower r.upper r grain c)))
 
 (** val check_varying_leaf :
-    pencil -> anchoring -> anchor_family option list -> known list -> region
-    -> varying_leaf -> bool **)
+    pencil -> anchoring -> anchor_family option list -> known list -> region -> varying_leaf ->
+    bool **)
 
 let check_varying_leaf q w families0 solutions r = function
 | OfAnchor (n, grain, h, e) ->
-  (&&) (reaches r h)
-    (at_anchor w families0 n (extended r h) (leaf_at q grain e))
+  (&&) (reaches r h) (at_anchor w families0 n (extended r h) (leaf_at q grain e))
 | OfClaim (n, grain, h, c, k) ->
   (&&) (reaches r h)
     ((&&) (leq (Natural.succ k) (size solutions))
-      (at_anchor w families0 n (extended r h)
-        (claim_at q grain c (known_at solutions k))))
+      (at_anchor w families0 n (extended r h) (claim_at q grain c (known_at solutions k))))
 | OfLimit (n, grain, h, c, x) ->
-  (&&) (reaches r h)
-    (at_anchor w families0 n (extended r h) (limit_at q grain c x))
+  (&&) (reaches r h) (at_anchor w families0 n (extended r h) (limit_at q grain c x))
 | OfWhole e -> check_whole q r e
 | LeftOpen -> true
 
 (** val bounds_hold : pencil -> anchoring -> bool **)
 
 let bounds_hold q w =
-  (&&)
-    (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q))
-      w.stiffness_bound)
+  (&&) (bounded_rows (Obj.magic size q.free) (ff_block q (row_a q)) w.stiffness_bound)
     (bounded_rows (Obj.magic size q.free) (ff_block q (row_b q)) w.mass_bound)
 
 (** val check_varying :
-    pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point
-    -> point -> bool **)
+    pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point -> point -> bool **)
 
 let check_varying q claims w tr lo hi =
   let families0 = expansions q w in
@@ -4540,15 +4106,14 @@ let check_varying q claims w tr lo hi =
   (&&) (wellformed q)
     ((&&) ((||) (nilp w.anchors) (bounds_hold q w))
       ((&&) (all (check_solution_claim q) claims)
-        (check_tree (size (slip q))
-          (check_varying_leaf q w families0 solutions) tr (window lo hi))))
+        (check_tree (size (slip q)) (check_varying_leaf q w families0 solutions) tr
+          (window lo hi))))
 
 (** val claim_yield : pencil -> region -> known -> yield option **)
 
 let claim_yield q r q0 =
   if supports_region (enclosed_order (size (slip q))) r q0
-  then Some { yield_region = r; yield_from = q0.known_from; yield_to =
-         q0.known_to }
+  then Some { yield_region = r; yield_from = q0.known_from; yield_to = q0.known_to }
   else None
 
 (** val varying_yield :
@@ -4561,18 +4126,16 @@ let varying_yield q claims rl =
      | LocalRoot (c, o) ->
        (match o with
         | Solution ->
-          Some { yield_region = (extended (fst rl) h); yield_from =
-            c.from_point; yield_to = c.to_point }
+          Some { yield_region = (extended (fst rl) h); yield_from = c.from_point; yield_to =
+            c.to_point }
         | _ -> None)
      | _ -> None)
   | OfClaim (_, _, h, _, k) ->
-    claim_yield q (extended (fst rl) h)
-      (known_at (known_solutions q claims) k)
+    claim_yield q (extended (fst rl) h) (known_at (known_solutions q claims) k)
   | _ -> None
 
 (** val varying_found :
-    pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
-    yield list **)
+    pencil -> solution_claim list -> varying_leaf tree -> point -> point -> yield list **)
 
 let varying_found q claims tr lo hi =
   pmap (varying_yield q claims) (leaves tr (window lo hi))
@@ -4588,8 +4151,7 @@ type cover =
 | Eliminated of elimination * whole leaf tree
 | Anchored of anchoring * varying_leaf tree
 
-(** val check_cover_of :
-    pencil -> solution_claim list -> cover -> point -> point -> bool **)
+(** val check_cover_of : pencil -> solution_claim list -> cover -> point -> point -> bool **)
 
 let check_cover_of q claims c lo hi =
   match c with
@@ -4611,36 +4173,30 @@ let regions_open c lo hi =
   | Eliminated (_, tr) -> left_open tr lo hi
   | Anchored (_, tr) -> varying_open tr lo hi
 
-(** val families :
-    cover -> point -> point -> support_leaf option list -> family list **)
+(** val families : cover -> point -> point -> support_leaf option list -> family list **)
 
 let families c lo hi ls =
   families_of (regions_open c lo hi) ls
 
-(** val still_open :
-    cover -> point -> point -> support_leaf option list -> region list **)
+(** val still_open : cover -> point -> point -> support_leaf option list -> region list **)
 
 let still_open c lo hi ls =
   open_of (regions_open c lo hi) ls
 
 (** val all_solutions :
-    pencil -> solution_claim list -> cover -> point -> point -> support_leaf
-    option list -> yield list option **)
+    pencil -> solution_claim list -> cover -> point -> point -> support_leaf option list ->
+    yield list option **)
 
 let all_solutions q claims c lo hi ls =
   distinct_yields (size (slip q)) lo hi
-    (filter (fun y ->
-      negb (has (belongs (size (slip q)) y) (families c lo hi ls)))
-      (cat (regions_found q claims c lo hi)
-        (isolated_of (regions_open c lo hi) ls)))
+    (filter (fun y -> negb (has (belongs (size (slip q)) y) (families c lo hi ls)))
+      (cat (regions_found q claims c lo hi) (isolated_of (regions_open c lo hi) ls)))
 
 (** val check_families :
-    pencil -> solution_claim list -> cover -> point -> point -> support_leaf
-    option list -> bool **)
+    pencil -> solution_claim list -> cover -> point -> point -> support_leaf option list -> bool **)
 
 let check_families q claims c lo hi ls =
-  (&&) (check_cover_of q claims c lo hi)
-    (check_supports q (regions_open c lo hi) ls)
+  (&&) (check_cover_of q claims c lo hi) (check_supports q (regions_open c lo hi) ls)
 
 (** val mixed_matrix : point -> matrix -> matrix -> matrix **)
 
@@ -4651,35 +4207,29 @@ let mixed_matrix e m m' =
 (** val mixed : point -> enclosed -> enclosed -> enclosed **)
 
 let mixed e p p' =
-  { size_of = p.size_of; center_a = (mixed_matrix e p.center_a p'.center_a);
-    center_b = (mixed_matrix e p.center_b p'.center_b); radius_a =
+  { size_of = p.size_of; center_a = (mixed_matrix e p.center_a p'.center_a); center_b =
+    (mixed_matrix e p.center_b p'.center_b); radius_a =
     (mixed_matrix e p.radius_a p'.radius_a); radius_b =
     (mixed_matrix e p.radius_b p'.radius_b) }
 
 type regular = { regular_pivot : int; regular_inverse : matrix;
-                 regular_units : Big_int_Z.big_int list;
-                 regular_left : Big_int_Z.big_int list;
+                 regular_units : Big_int_Z.big_int list; regular_left : Big_int_Z.big_int list;
                  regular_right : Big_int_Z.big_int list;
-                 regular_widths : Big_int_Z.big_int list; regular_minus : 
-                 bool }
+                 regular_widths : Big_int_Z.big_int list; regular_minus : bool }
 
-(** val combine_rows :
-    Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list **)
+(** val combine_rows : Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list **)
 
 let combine_rows c rows =
-  foldr (fun e sum0 -> add_poly (scale_poly (fst e) (snd e)) sum0) []
-    (zip c rows)
+  foldr (fun e sum0 -> add_poly (scale_poly (fst e) (snd e)) sum0) [] (zip c rows)
 
-(** val against_right :
-    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+(** val against_right : int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let against_right m w p =
   sumZ (iota 0 (Natural.succ m)) (fun j ->
     Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int p j)
       (nth Big_int_Z.zero_big_int w.regular_right j))
 
-(** val against_radius :
-    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
+(** val against_radius : int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let against_radius m w r =
   sumZ (iota 0 (Natural.succ m)) (fun j ->
@@ -4687,8 +4237,8 @@ let against_radius m w r =
       (Big_int_Z.abs_big_int (nth Big_int_Z.zero_big_int w.regular_right j)))
 
 (** val off_pivot :
-    int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
-    Big_int_Z.big_int list -> Big_int_Z.big_int **)
+    int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int **)
 
 let off_pivot m w u i p r =
   sumZ (iota 0 m) (fun j ->
@@ -4713,24 +4263,20 @@ let regular_row0 m w m0 rd u i =
         (against_radius m w r)))
     (Big_int_Z.mult_big_int u (nth Big_int_Z.zero_big_int w.regular_widths i))
 
-(** val regular_rows :
-    int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
+(** val regular_rows : int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool **)
 
 let regular_rows m w m0 rd u =
   (&&) (Z.ltb Big_int_Z.zero_big_int u)
     ((&&)
       (all (fun i ->
-        Z.ltb Big_int_Z.zero_big_int
-          (nth Big_int_Z.zero_big_int w.regular_widths i)) (iota 0 m))
-      (all (regular_row0 m w m0 rd u) (iota 0 m)))
+        Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int w.regular_widths i))
+        (iota 0 m)) (all (regular_row0 m w m0 rd u) (iota 0 m)))
 
 (** val row_slack :
-    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-    Big_int_Z.big_int **)
+    int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
 let row_slack m w p r =
-  Big_int_Z.add_big_int (against_radius m w r)
-    (off_pivot m w Big_int_Z.zero_big_int 0 p r)
+  Big_int_Z.add_big_int (against_radius m w r) (off_pivot m w Big_int_Z.zero_big_int 0 p r)
 
 (** val regular_sign : int -> regular -> matrix -> matrix -> bool **)
 
@@ -4738,16 +4284,14 @@ let regular_sign m w m0 rd =
   let p = combine_rows w.regular_left m0 in
   let r = combine_rows (map0 Big_int_Z.abs_big_int w.regular_left) rd in
   let h = against_right m w p in
-  Z.ltb (row_slack m w p r)
-    (if w.regular_minus then Big_int_Z.minus_big_int h else h)
+  Z.ltb (row_slack m w p r) (if w.regular_minus then Big_int_Z.minus_big_int h else h)
 
 (** val regular_order : enclosed -> region -> Equality.sort -> int list **)
 
 let regular_order p r k =
   (Obj.magic k) :: (Obj.magic others p r k)
 
-(** val restricted :
-    int list -> (int -> int -> Big_int_Z.big_int) -> matrix **)
+(** val restricted : int list -> (int -> int -> Big_int_Z.big_int) -> matrix **)
 
 let restricted l f =
   map0 (fun i -> map0 (fun j -> f i j) l) l
@@ -4762,37 +4306,32 @@ let corner_pencil p p' c =
 let corner_end r c =
   if odd c then r.upper else r.lower
 
-(** val corner_center :
-    enclosed -> enclosed -> region -> int list -> int -> matrix **)
+(** val corner_center : enclosed -> enclosed -> region -> int list -> int -> matrix **)
 
 let corner_center p p' r l c =
   restricted l (center (corner_pencil p p' c) (corner_end r c))
 
-(** val corner_radius :
-    enclosed -> enclosed -> region -> int list -> int -> matrix **)
+(** val corner_radius : enclosed -> enclosed -> region -> int list -> int -> matrix **)
 
 let corner_radius p p' r l c =
   restricted l (radius (corner_pencil p p' c) (corner_end r c))
 
-(** val rows_at :
-    enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
+(** val rows_at : enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
 
 let rows_at p p' r l w c =
-  regular_rows (pred (size l)) w (corner_center p p' r l c)
-    (corner_radius p p' r l c) (nth Big_int_Z.zero_big_int w.regular_units c)
+  regular_rows (pred (size l)) w (corner_center p p' r l c) (corner_radius p p' r l c)
+    (nth Big_int_Z.zero_big_int w.regular_units c)
 
-(** val sign_at0 :
-    enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
+(** val sign_at0 : enclosed -> enclosed -> region -> int list -> regular -> int -> bool **)
 
 let sign_at0 p p' r l w c =
-  regular_sign (pred (size l)) w (corner_center p p' r l c)
-    (corner_radius p p' r l c)
+  regular_sign (pred (size l)) w (corner_center p p' r l c) (corner_radius p p' r l c)
 
 (** val four_corners : int list **)
 
 let four_corners =
-  0 :: ((Natural.succ 0) :: ((Natural.succ (Natural.succ
-    0)) :: ((Natural.succ (Natural.succ (Natural.succ 0))) :: [])))
+  0 :: ((Natural.succ 0) :: ((Natural.succ (Natural.succ 0)) :: ((Natural.succ (Natural.succ
+    (Natural.succ 0))) :: [])))
 
 (** val box_regular : enclosed -> enclosed -> region -> regular -> bool **)
 
@@ -4802,11 +4341,8 @@ let box_regular p p' r w =
     ((&&)
       (in_mem (Obj.magic w.regular_pivot)
         (mem (seq_predType nat_eqType) (Obj.magic moving p r)))
-      ((&&)
-        (Z.ltb Big_int_Z.zero_big_int
-          (nth Big_int_Z.zero_big_int w.regular_right 0))
-        (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c))
-          four_corners)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int w.regular_right 0))
+        (all (fun c -> (&&) (rows_at p p' r l w c) (sign_at0 p p' r l w c)) four_corners)))
 
 (** val zero_firsts : zero_system -> int list **)
 
@@ -4828,23 +4364,21 @@ let turned p =
 let unit_normal p =
   if Z.ltb Big_int_Z.zero_big_int (inner p.normal (turned p))
   then turned p
-  else ((Big_int_Z.minus_big_int (fst (turned p))),
-         (Big_int_Z.minus_big_int (snd (turned p))))
+  else ((Big_int_Z.minus_big_int (fst (turned p))), (Big_int_Z.minus_big_int (snd (turned p))))
 
 (** val three_columns :
     zero_system -> int -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row **)
 
 let three_columns z0 j n t =
-  ((gap z0 j), (Big_int_Z.minus_big_int n)) :: (((right z0 j),
-    t) :: (((left z0 j), (Big_int_Z.minus_big_int t)) :: []))
+  ((gap z0 j), (Big_int_Z.minus_big_int n)) :: (((right z0 j), t) :: (((left z0 j),
+    (Big_int_Z.minus_big_int t)) :: []))
 
 (** val zero_columns : zero_system -> Equality.sort -> sparse_row **)
 
 let zero_columns z0 d =
   if in_mem d (mem (seq_predType nat_eqType) (Obj.magic zero_firsts z0))
   then let j = index nat_eqType d (Obj.magic zero_firsts z0) in
-       let p = zero_particle z0 j in
-       three_columns z0 j (fst (unit_normal p)) (fst p.tangent)
+       let p = zero_particle z0 j in three_columns z0 j (fst (unit_normal p)) (fst p.tangent)
   else if in_mem d (mem (seq_predType nat_eqType) (Obj.magic zero_seconds z0))
        then let j = index nat_eqType d (Obj.magic zero_seconds z0) in
             let p = zero_particle z0 j in
@@ -4874,33 +4408,29 @@ let scaled_normal u p =
 
 let zero_forms z0 u j =
   let p = zero_particle z0 j in
-  (negative (pressing_form z0.without_zero u (scaled_normal u p) p)) :: (
-  (negative
-    (cone_form z0.without_zero u
-      (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p))) :: (
-  (negative
-    (cone_form z0.without_zero u (with_sign Big_int_Z.unit_big_int p))) :: []))
+  (negative (pressing_form z0.without_zero u (scaled_normal u p) p)) :: ((negative
+                                                                           (cone_form
+                                                                             z0.without_zero u
+                                                                             (with_sign
+                                                                               (Big_int_Z.minus_big_int
+                                                                               Big_int_Z.unit_big_int)
+                                                                               p))) :: (
+  (negative (cone_form z0.without_zero u (with_sign Big_int_Z.unit_big_int p))) :: []))
 
 (** val variable_forms : zero_system -> unknown -> linear_form list **)
 
 let variable_forms z0 u =
-  cat
-    (map0 (fun d -> force_form z0.without_zero u d) z0.without_zero.free_dofs)
-    (cat
-      (map0 (fun p -> negative (cone_form z0.without_zero u p))
-        z0.without_zero.particles)
-      (flatten
-        (map0 (fun j -> zero_forms z0 u j) (iota 0 (size z0.zero_particles)))))
+  cat (map0 (fun d -> force_form z0.without_zero u d) z0.without_zero.free_dofs)
+    (cat (map0 (fun p -> negative (cone_form z0.without_zero u p)) z0.without_zero.particles)
+      (flatten (map0 (fun j -> zero_forms z0 u j) (iota 0 (size z0.zero_particles)))))
 
 (** val zero_pencil : zero_system -> unknown -> pencil **)
 
 let zero_pencil z0 u =
   pencil_of_forms (zero_table z0)
-    (addn
-      (addn (free_number z0.without_zero) (size z0.without_zero.particles))
-      (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-        (size z0.zero_particles))) (variable_forms z0 u)
-    (iota 0 (free_number z0.without_zero))
+    (addn (addn (free_number z0.without_zero) (size z0.without_zero.particles))
+      (muln (Natural.succ (Natural.succ (Natural.succ 0))) (size z0.zero_particles)))
+    (variable_forms z0 u) (iota 0 (free_number z0.without_zero))
 
 (** val part_plain : zero_system -> pencil **)
 
@@ -4916,8 +4446,7 @@ let part_friction z0 =
 
 let slip_number z0 =
   addn (size z0.without_zero.particles)
-    (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-      (size z0.zero_particles))
+    (muln (Natural.succ (Natural.succ (Natural.succ 0))) (size z0.zero_particles))
 
 (** val half_state : zero_system -> region -> int -> state **)
 
@@ -4928,16 +4457,14 @@ let half_state z0 r i =
 
 let halves_apart z0 r =
   all (fun j ->
-    (||) (is_resting (half_state z0 r (right z0 j)))
-      (is_resting (half_state z0 r (left z0 j))))
+    (||) (is_resting (half_state z0 r (right z0 j))) (is_resting (half_state z0 r (left z0 j))))
     (iota 0 (size z0.zero_particles))
 
 (** val both_halves : zero_system -> region -> bool **)
 
 let both_halves z0 r =
   has (fun j ->
-    (&&) (is_moving (half_state z0 r (right z0 j)))
-      (is_moving (half_state z0 r (left z0 j))))
+    (&&) (is_moving (half_state z0 r (right z0 j))) (is_moving (half_state z0 r (left z0 j))))
     (iota 0 (size z0.zero_particles))
 
 type critical_leaf =
@@ -4961,13 +4488,11 @@ let check_parts p p' r low high = function
 
 let freed z0 =
   let s = z0.without_zero in
-  { without_zero = { dofs = s.dofs; stiffness = s.stiffness; mass = s.mass;
-  free_dofs =
+  { without_zero = { dofs = s.dofs; stiffness = s.stiffness; mass = s.mass; free_dofs =
   (filter (fun d ->
     in_mem (Obj.magic d)
-      (mem (seq_predType nat_eqType)
-        (Obj.magic cat s.free_dofs (zero_dofs z0)))) (iota 0 s.dofs));
-  particles = s.particles; unit_length = s.unit_length }; zero_particles =
+      (mem (seq_predType nat_eqType) (Obj.magic cat s.free_dofs (zero_dofs z0))))
+    (iota 0 s.dofs)); particles = s.particles; unit_length = s.unit_length }; zero_particles =
   [] }
 
 (** val pencil_at : zero_system -> point -> pencil **)
@@ -4982,11 +4507,9 @@ let same_weights z0 a b =
     (all (fun i ->
       Big_int_Z.eq_big_int (nth Big_int_Z.unit_big_int a.whole_weights i)
         (nth Big_int_Z.unit_big_int b.whole_weights i))
-      (iota (free_number (freed z0).without_zero)
-        (size z0.without_zero.particles)))
+      (iota (free_number (freed z0).without_zero) (size z0.without_zero.particles)))
 
-(** val freed_weight :
-    zero_system -> whole -> Equality.sort -> Big_int_Z.big_int **)
+(** val freed_weight : zero_system -> whole -> Equality.sort -> Big_int_Z.big_int **)
 
 let freed_weight z0 a d =
   nth Big_int_Z.unit_big_int a.whole_weights
@@ -4997,44 +4520,36 @@ let freed_weight z0 a d =
 let zero_weights z0 a =
   (&&) ((||) (nilp z0.zero_particles) (negb a.whole_negative))
     (all (fun p ->
-      (&&)
-        (Z.leb Big_int_Z.zero_big_int
-          (freed_weight z0 a (Obj.magic p.first_dof)))
+      (&&) (Z.leb Big_int_Z.zero_big_int (freed_weight z0 a (Obj.magic p.first_dof)))
         (Big_int_Z.eq_big_int (freed_weight z0 a (Obj.magic p.first_dof))
           (freed_weight z0 a (Obj.magic p.second_dof)))) z0.zero_particles)
 
-(** val check_whole_leaf :
-    zero_system -> region -> point -> point -> critical_leaf -> bool **)
+(** val check_whole_leaf : zero_system -> region -> point -> point -> critical_leaf -> bool **)
 
 let check_whole_leaf z0 r low high = function
 | BoxWhole (a, b) ->
   (&&) (same_weights z0 a b)
     ((&&) (zero_weights z0 a)
       ((&&) (zero_weights z0 b)
-        ((&&) (check_whole (pencil_at z0 low) r a)
-          (check_whole (pencil_at z0 high) r b))))
+        ((&&) (check_whole (pencil_at z0 low) r a) (check_whole (pencil_at z0 high) r b))))
 | BoxHalves -> both_halves z0 r
 | _ -> false
 
 (** val with_left : elimination -> (matrix * matrix) -> elimination **)
 
 let with_left w other =
-  { row_scale = w.row_scale; unit_of = w.unit_of; right_w = w.right_w;
-    left_va = (fst other); left_vb = (snd other); bound_c = w.bound_c;
-    bound_d = w.bound_d; factor_scale = w.factor_scale; stiffness_factor =
-    w.stiffness_factor }
+  { row_scale = w.row_scale; unit_of = w.unit_of; right_w = w.right_w; left_va = (fst other);
+    left_vb = (snd other); bound_c = w.bound_c; bound_d = w.bound_d; factor_scale =
+    w.factor_scale; stiffness_factor = w.stiffness_factor }
 
 (** val condensed_parts :
-    zero_system -> (elimination * (matrix * matrix)) option ->
-    (enclosed * enclosed) option **)
+    zero_system -> (elimination * (matrix * matrix)) option -> (enclosed * enclosed) option **)
 
 let condensed_parts z0 w =
   Option.map (fun wl -> ((condensed (blocks_of (part_plain z0)) (fst wl)),
-    (condensed (blocks_of (part_friction z0)) (with_left (fst wl) (snd wl)))))
-    w
+    (condensed (blocks_of (part_friction z0)) (with_left (fst wl) (snd wl))))) w
 
-(** val parts_eliminated :
-    zero_system -> (elimination * (matrix * matrix)) option -> bool **)
+(** val parts_eliminated : zero_system -> (elimination * (matrix * matrix)) option -> bool **)
 
 let parts_eliminated z0 = function
 | Some p ->
@@ -5042,13 +4557,12 @@ let parts_eliminated z0 = function
   (&&) (free_rows_constant (part_plain z0))
     ((&&) (free_rows_constant (part_friction z0))
       ((&&) (check_elimination (blocks_of (part_plain z0)) w0)
-        (check_elimination (blocks_of (part_friction z0))
-          (with_left w0 other))))
+        (check_elimination (blocks_of (part_friction z0)) (with_left w0 other))))
 | None -> true
 
 (** val check_critical_leaf :
-    zero_system -> (enclosed * enclosed) option -> region -> point -> point
-    -> critical_leaf -> bool **)
+    zero_system -> (enclosed * enclosed) option -> region -> point -> point -> critical_leaf ->
+    bool **)
 
 let check_critical_leaf z0 parts r low high l =
   (||)
@@ -5057,20 +4571,17 @@ let check_critical_leaf z0 parts r low high l =
      | None -> false) (check_whole_leaf z0 r low high l)
 
 (** val check_critical :
-    zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf
-    tree -> point -> point -> bool **)
+    zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf tree -> point ->
+    point -> bool **)
 
 let check_critical z0 w tr from bound1 =
   let parts = condensed_parts z0 w in
-  (&&)
-    (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int,
-      Big_int_Z.unit_big_int)))
+  (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
     ((&&) (parts_eliminated z0 w)
-      (check_boxes (slip_number z0) (check_critical_leaf z0 parts) tr
-        (window zero infinity) from bound1))
+      (check_boxes (slip_number z0) (check_critical_leaf z0 parts) tr (window zero infinity)
+        from bound1))
 
-type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
-                    friction_left : matrix list }
+type box_anchor = { reversed_anchor : bool; plain_anchor : anchor; friction_left : matrix list }
 
 type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
                        box_anchors : box_anchor list }
@@ -5082,17 +4593,15 @@ type anchored_box_leaf =
 (** val friction_anchor : anchor -> matrix list -> anchor **)
 
 let friction_anchor a other =
-  { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit;
-    anchor_right = a.anchor_right; anchor_left = other; anchor_scale =
-    a.anchor_scale }
+  { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit; anchor_right =
+    a.anchor_right; anchor_left = other; anchor_scale = a.anchor_scale }
 
 (** val expand_part : pencil -> bool -> anchor -> anchor_family option **)
 
 let expand_part q reverse a =
   if reverse then expand (swap_pencil q) a else expand q a
 
-(** val expand_box :
-    zero_system -> box_anchor -> (anchor_family * anchor_family) option **)
+(** val expand_box : zero_system -> box_anchor -> (anchor_family * anchor_family) option **)
 
 let expand_box z0 b =
   match expand_part (part_plain z0) b.reversed_anchor b.plain_anchor with
@@ -5104,24 +4613,23 @@ let expand_box z0 b =
   | None -> None
 
 (** val check_local_leaf :
-    (region -> bool) -> enclosed -> enclosed -> region -> point -> point ->
-    critical_leaf -> bool **)
+    (region -> bool) -> enclosed -> enclosed -> region -> point -> point -> critical_leaf ->
+    bool **)
 
 let check_local_leaf halves p p' r low high l = match l with
 | BoxHalves -> halves r
 | _ -> check_parts p p' r low high l
 
 (** val local_part :
-    zero_system -> form_bound -> form_bound -> anchor -> anchor_family ->
-    point -> point -> Big_int_Z.big_int -> enclosed **)
+    zero_system -> form_bound -> form_bound -> anchor -> anchor_family -> point -> point ->
+    Big_int_Z.big_int -> enclosed **)
 
 let local_part z0 low_a low_b a fam lo hi grain =
   local_pencil (slip_number z0) a low_a low_b fam lo hi false grain
 
 (** val check_about :
-    zero_system -> form_bound -> form_bound -> box_anchor ->
-    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
-    -> point -> critical_leaf tree -> bool **)
+    zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
+    Big_int_Z.big_int -> region -> point -> point -> critical_leaf tree -> bool **)
 
 let check_about z0 low_a low_b b fams grain r low high tr =
   let a = b.plain_anchor in
@@ -5134,26 +4642,25 @@ let check_about z0 low_a low_b b fams grain r low high tr =
         (check_boxes (slip_number z0)
           (check_local_leaf (both_halves z0)
             (local_part z0 low_a low_b a (fst fams) r.lower r.upper grain)
-            (local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain))
-          tr (local_region r) low high)))
+            (local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain)) tr
+          (local_region r) low high)))
 
 (** val no_box_anchor : box_anchor **)
 
 let no_box_anchor =
-  { reversed_anchor = false; plain_anchor = { anchor_center = zero;
-    anchor_unit = Big_int_Z.zero_big_int; anchor_right = []; anchor_left =
-    []; anchor_scale = [] }; friction_left = [] }
+  { reversed_anchor = false; plain_anchor = { anchor_center = zero; anchor_unit =
+    Big_int_Z.zero_big_int; anchor_right = []; anchor_left = []; anchor_scale = [] };
+    friction_left = [] }
 
 (** val box_expansions :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
-    list **)
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list **)
 
 let box_expansions z0 w =
   map0 (fun b -> expand_box z0 b) w.box_anchors
 
 (** val check_anchored_box :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
-    list -> region -> point -> point -> anchored_box_leaf -> bool **)
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> region ->
+    point -> point -> anchored_box_leaf -> bool **)
 
 let check_anchored_box z0 w families0 r low high = function
 | AboutAnchor (n, grain, tr') ->
@@ -5162,10 +4669,9 @@ let check_anchored_box z0 w families0 r low high = function
    | Some fams ->
      if b.reversed_anchor
      then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
-            (check_about z0 w.mass_below w.stiffness_below b fams grain
-              (swap_region r) low high tr')
-     else check_about z0 w.stiffness_below w.mass_below b fams grain r low
-            high tr'
+            (check_about z0 w.mass_below w.stiffness_below b fams grain (swap_region r) low
+              high tr')
+     else check_about z0 w.stiffness_below w.mass_below b fams grain r low high tr'
    | None -> false)
 | WithoutAnchor l0 -> check_whole_leaf z0 r low high l0
 
@@ -5180,30 +4686,23 @@ let both_bounded z0 w =
         (ff_block (part_plain z0) (row_b (part_plain z0))) w.mass_below)
       ((&&)
         (bounded_rows (Obj.magic size (part_friction z0).free)
-          (ff_block (part_friction z0) (row_a (part_friction z0)))
-          w.stiffness_below)
+          (ff_block (part_friction z0) (row_a (part_friction z0))) w.stiffness_below)
         (bounded_rows (Obj.magic size (part_friction z0).free)
-          (ff_block (part_friction z0) (row_b (part_friction z0)))
-          w.mass_below)))
+          (ff_block (part_friction z0) (row_b (part_friction z0))) w.mass_below)))
 
 (** val check_anchored_critical :
-    zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point
-    -> bool **)
+    zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool **)
 
 let check_anchored_critical z0 w tr from bound1 =
   let families0 = box_expansions z0 w in
-  (&&)
-    (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int,
-      Big_int_Z.unit_big_int)))
+  (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
     ((&&) ((||) (nilp w.box_anchors) (both_bounded z0 w))
       (check_boxes (slip_number z0) (check_anchored_box z0 w families0) tr
         (window zero infinity) from bound1))
 
-type presence = { presence_box : regular; presence_start : regular;
-                  presence_finish : regular }
+type presence = { presence_box : regular; presence_start : regular; presence_finish : regular }
 
-(** val rest_row :
-    enclosed -> enclosed -> region -> int -> regular -> int -> int -> bool **)
+(** val rest_row : enclosed -> enclosed -> region -> int -> regular -> int -> int -> bool **)
 
 let rest_row p p' r k v i c =
   let p0 =
@@ -5222,36 +4721,30 @@ let rest_row p p' r k v i c =
 let positive_vector v =
   Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v.regular_right 0)
 
-(** val presence_edge :
-    enclosed -> enclosed -> region -> int -> regular -> int list -> bool **)
+(** val presence_edge : enclosed -> enclosed -> region -> int -> regular -> int list -> bool **)
 
 let presence_edge p p' r k e cs =
   (&&) (positive_vector e)
-    ((&&)
-      (Z.ltb Big_int_Z.zero_big_int
-        (nth Big_int_Z.zero_big_int e.regular_left 0))
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int e.regular_left 0))
       (all (fun c ->
         (&&) (rows_at p p' r (regular_order p r (Obj.magic k)) e c)
           (sign_at0 p p' r (regular_order p r (Obj.magic k)) e c)) cs))
 
-(** val presence_inside :
-    enclosed -> enclosed -> region -> int -> regular -> bool **)
+(** val presence_inside : enclosed -> enclosed -> region -> int -> regular -> bool **)
 
 let presence_inside p p' r k v =
-  (&&)
-    (all (rows_at p p' r (regular_order p r (Obj.magic k)) v) four_corners)
+  (&&) (all (rows_at p p' r (regular_order p r (Obj.magic k)) v) four_corners)
     ((&&)
       (all (fun j ->
         Z.ltb (nth Big_int_Z.zero_big_int v.regular_widths j)
           (nth Big_int_Z.zero_big_int v.regular_right (Natural.succ j)))
         (iota 0 (pred (size (regular_order p r (Obj.magic k))))))
       (all (fun i ->
-        (||) (is_moving (state_of r i))
-          (all (rest_row p p' r k v i) four_corners)) (indices p)))
+        (||) (is_moving (state_of r i)) (all (rest_row p p' r k v i) four_corners)) (indices p)))
 
 (** val check_presence_piece :
-    (enclosed * enclosed) -> (enclosed * enclosed) -> (enclosed * enclosed)
-    -> region -> presence -> bool **)
+    (enclosed * enclosed) -> (enclosed * enclosed) -> (enclosed * enclosed) -> region ->
+    presence -> bool **)
 
 let check_presence_piece inside0 start finish r w =
   let k = w.presence_box.regular_pivot in
@@ -5264,37 +4757,31 @@ let check_presence_piece inside0 start finish r w =
           ((&&) (positive_vector w.presence_box)
             (presence_inside (fst inside0) (snd inside0) r k w.presence_box)))))
     ((&&)
-      (presence_edge (fst start) (snd start) r k w.presence_start
-        (0 :: ((Natural.succ (Natural.succ 0)) :: [])))
+      (presence_edge (fst start) (snd start) r k w.presence_start (0 :: ((Natural.succ
+        (Natural.succ 0)) :: [])))
       ((&&)
-        (presence_edge (fst finish) (snd finish) r k w.presence_finish
-          ((Natural.succ 0) :: ((Natural.succ (Natural.succ (Natural.succ
-          0))) :: [])))
+        (presence_edge (fst finish) (snd finish) r k w.presence_finish ((Natural.succ
+          0) :: ((Natural.succ (Natural.succ (Natural.succ 0))) :: [])))
         (addb w.presence_start.regular_minus w.presence_finish.regular_minus)))
 
-type presence_piece = { piece_end : point; piece_region : region;
-                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
-                        piece_after : point; piece_before : point;
-                        piece_witness : presence }
+type presence_piece = { piece_end : point; piece_region : region; piece_anchor : int;
+                        piece_grain : Big_int_Z.big_int; piece_after : point;
+                        piece_before : point; piece_witness : presence }
 
 (** val ends_over :
-    zero_system -> form_bound -> form_bound -> box_anchor ->
-    (anchor_family * anchor_family) -> Big_int_Z.big_int -> point -> point ->
-    point -> point -> enclosed * enclosed **)
+    zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
+    Big_int_Z.big_int -> point -> point -> point -> point -> enclosed * enclosed **)
 
 let ends_over z0 low_a low_b b fams grain low high lo hi =
   let a = b.plain_anchor in
   let p = local_part z0 low_a low_b a (fst fams) lo hi grain in
-  let p' =
-    local_part z0 low_a low_b (friction_anchor a b.friction_left) (snd fams)
-      lo hi grain
+  let p' = local_part z0 low_a low_b (friction_anchor a b.friction_left) (snd fams) lo hi grain
   in
   ((mixed low p p'), (mixed high p p'))
 
 (** val check_present :
-    zero_system -> form_bound -> form_bound -> box_anchor ->
-    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point
-    -> point -> point -> point -> presence -> bool **)
+    zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
+    Big_int_Z.big_int -> region -> point -> point -> point -> point -> presence -> bool **)
 
 let check_present z0 low_a low_b b fams grain r low high after before v =
   let over = ends_over z0 low_a low_b b fams grain low high in
@@ -5309,8 +4796,8 @@ let check_present z0 low_a low_b b fams grain r low high after before v =
             (over before r.upper) (local_region r) v))))
 
 (** val check_piece :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
-    list -> point -> presence_piece -> bool **)
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
+    presence_piece -> bool **)
 
 let check_piece z0 w families0 low p =
   let b = nth no_box_anchor w.box_anchors p.piece_anchor in
@@ -5320,17 +4807,15 @@ let check_piece z0 w families0 low p =
      | Some fams ->
        if b.reversed_anchor
        then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-              (check_present z0 w.mass_below w.stiffness_below b fams
-                p.piece_grain (swap_region r) low p.piece_end p.piece_after
-                p.piece_before p.piece_witness)
-       else check_present z0 w.stiffness_below w.mass_below b fams
-              p.piece_grain r low p.piece_end p.piece_after p.piece_before
-              p.piece_witness
+              (check_present z0 w.mass_below w.stiffness_below b fams p.piece_grain
+                (swap_region r) low p.piece_end p.piece_after p.piece_before p.piece_witness)
+       else check_present z0 w.stiffness_below w.mass_below b fams p.piece_grain r low
+              p.piece_end p.piece_after p.piece_before p.piece_witness
      | None -> false)
 
 (** val check_pieces :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option
-    list -> point -> presence_piece list -> point -> bool **)
+    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
+    presence_piece list -> point -> bool **)
 
 let rec check_pieces z0 w families0 low pieces bound1 =
   match pieces with
@@ -5346,14 +4831,11 @@ let rec check_pieces z0 w families0 low pieces bound1 =
          (check_pieces z0 w families0 p.piece_end rest0 bound1))
 
 (** val check_presence :
-    zero_system -> box_anchoring -> presence_piece list -> point -> point ->
-    bool **)
+    zero_system -> box_anchoring -> presence_piece list -> point -> point -> bool **)
 
 let check_presence z0 w pieces from bound1 =
   let families0 = box_expansions z0 w in
-  (&&)
-    (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int,
-      Big_int_Z.unit_big_int)))
+  (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
     ((&&) (both_bounded z0 w)
       ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
         (check_pieces z0 w families0 from pieces bound1)))
@@ -5364,18 +4846,12 @@ let one_half z0 support0 j =
   (&&)
     (negb
       ((&&)
-        (in_mem (Obj.magic right z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))
-        (in_mem (Obj.magic left z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
-    (implb
-      (in_mem (Obj.magic gap z0 j)
-        (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic right z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic left z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))))
+    (implb (in_mem (Obj.magic gap z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))
       ((||)
-        (in_mem (Obj.magic right z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))
-        (in_mem (Obj.magic left z0 j)
-          (mem (seq_predType nat_eqType) (Obj.magic support0)))))
+        (in_mem (Obj.magic right z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))
+        (in_mem (Obj.magic left z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))))
 
 (** val resting_halves : zero_system -> int list -> int list **)
 
@@ -5383,40 +4859,30 @@ let resting_halves z0 support0 =
   cat
     (map0 (fun j -> left z0 j)
       (filter (fun j ->
-        (&&)
-          (in_mem (Obj.magic gap z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0)))
-          (in_mem (Obj.magic right z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0))))
+        (&&) (in_mem (Obj.magic gap z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))
+          (in_mem (Obj.magic right z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0))))
         (iota 0 (size z0.zero_particles))))
     (map0 (fun j -> right z0 j)
       (filter (fun j ->
-        (&&)
-          (in_mem (Obj.magic gap z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0)))
-          (in_mem (Obj.magic left z0 j)
-            (mem (seq_predType nat_eqType) (Obj.magic support0))))
+        (&&) (in_mem (Obj.magic gap z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0)))
+          (in_mem (Obj.magic left z0 j) (mem (seq_predType nat_eqType) (Obj.magic support0))))
         (iota 0 (size z0.zero_particles))))
 
 (** val support_pencil : zero_system -> unknown -> int list -> pencil **)
 
 let support_pencil z0 u support0 =
   let given = fun b row i ->
-    if in_mem i
-         (mem (seq_predType nat_eqType)
-           (Obj.magic resting_halves z0 support0))
+    if in_mem i (mem (seq_predType nat_eqType) (Obj.magic resting_halves z0 support0))
     then b
     else row (zero_pencil z0 u) i
   in
   { order = (zero_pencil z0 u).order; rows_a =
-  (map0 (fun i ->
-    Obj.magic given (((head 0 support0), Big_int_Z.unit_big_int) :: []) row_a
-      i) (iota 0 (zero_pencil z0 u).order)); rows_b =
-  (map0 (fun i -> Obj.magic given [] row_b i)
-    (iota 0 (zero_pencil z0 u).order)); free = (zero_pencil z0 u).free }
+  (map0 (fun i -> Obj.magic given (((head 0 support0), Big_int_Z.unit_big_int) :: []) row_a i)
+    (iota 0 (zero_pencil z0 u).order)); rows_b =
+  (map0 (fun i -> Obj.magic given [] row_b i) (iota 0 (zero_pencil z0 u).order)); free =
+  (zero_pencil z0 u).free }
 
-(** val check_zero_enclosed :
-    zero_system -> unknown -> enclosed_claim -> bool **)
+(** val check_zero_enclosed : zero_system -> unknown -> enclosed_claim -> bool **)
 
 let check_zero_enclosed z0 u c =
   let support0 = c.box_support in
@@ -5425,41 +4891,36 @@ let check_zero_enclosed z0 u c =
       ((&&) (all (one_half z0 support0) (iota 0 (size z0.zero_particles)))
         (check_enclosed_claim (support_pencil z0 u support0) c)))
 
-type pinned_box = { box_interval : interval; near_anchor : int;
-                    near_grain : Big_int_Z.big_int; box_pinning : pinning;
-                    box_claim : enclosed_claim }
+type pinned_box = { box_interval : interval; near_anchor : int; near_grain : Big_int_Z.big_int;
+                    box_pinning : pinning; box_claim : enclosed_claim }
 
 (** val known_box : zero_system -> unknown -> pinned_box -> known **)
 
 let known_box z0 u b =
-  { known_from = b.box_claim.box_from; known_to = b.box_claim.box_to;
-    known_support = (positions (zero_pencil z0 u) b.box_claim.box_support);
-    known_biactive = [] }
+  { known_from = b.box_claim.box_from; known_to = b.box_claim.box_to; known_support =
+    (positions (zero_pencil z0 u) b.box_claim.box_support); known_biactive = [] }
 
 (** val pinned_yield : region -> pinned_box -> yield **)
 
 let pinned_yield r b =
-  { yield_region = (extended r b.box_interval); yield_from =
-    b.box_claim.box_from; yield_to = b.box_claim.box_to }
+  { yield_region = (extended r b.box_interval); yield_from = b.box_claim.box_from; yield_to =
+    b.box_claim.box_to }
 
-(** val pinned_alone :
-    zero_system -> unknown -> enclosed -> region -> pinned_box -> bool **)
+(** val pinned_alone : zero_system -> unknown -> enclosed -> region -> pinned_box -> bool **)
 
 let pinned_alone z0 u p r b =
   check_claimed p r b.box_pinning (known_box z0 u b)
 
 (** val pinned_about :
-    zero_system -> unknown -> anchoring -> anchor_family option list ->
-    region -> pinned_box -> bool **)
+    zero_system -> unknown -> anchoring -> anchor_family option list -> region -> pinned_box ->
+    bool **)
 
 let pinned_about z0 u w families0 r b =
   at_anchor w families0 b.near_anchor r
-    (claim_at (zero_pencil z0 u) b.near_grain b.box_pinning
-      (known_box z0 u b))
+    (claim_at (zero_pencil z0 u) b.near_grain b.box_pinning (known_box z0 u b))
 
 (** val check_pinned :
-    zero_system -> unknown -> (region -> pinned_box -> bool) -> region ->
-    pinned_box -> bool **)
+    zero_system -> unknown -> (region -> pinned_box -> bool) -> region -> pinned_box -> bool **)
 
 let check_pinned z0 u alone r b =
   let r' = extended r b.box_interval in
@@ -5467,11 +4928,10 @@ let check_pinned z0 u alone r b =
     ((&&) (reaches r b.box_interval)
       ((&&) (alone r' b)
         ((&&)
-          (supports_region (enclosed_order (size (slip (zero_pencil z0 u))))
-            r' (known_box z0 u b)) (check_zero_enclosed z0 u b.box_claim))))
+          (supports_region (enclosed_order (size (slip (zero_pencil z0 u)))) r'
+            (known_box z0 u b)) (check_zero_enclosed z0 u b.box_claim))))
 
-(** val pinned_yields :
-    region list -> pinned_box option list -> yield list **)
+(** val pinned_yields : region list -> pinned_box option list -> yield list **)
 
 let pinned_yields rs bs =
   pmap (fun rb -> Option.map (pinned_yield (fst rb)) (snd rb)) (zip rs bs)
@@ -5484,8 +4944,8 @@ let not_pinned rs bs =
                   | None -> Some (fst rb)) (zip rs bs)
 
 (** val check_beside :
-    zero_system -> unknown -> region list -> pinned_box option list ->
-    (region -> pinned_box -> bool) -> bool **)
+    zero_system -> unknown -> region list -> pinned_box option list -> (region -> pinned_box ->
+    bool) -> bool **)
 
 let check_beside z0 u rs bs alone =
   (&&) (eq_op nat_eqType (Obj.magic size rs) (Obj.magic size bs))
@@ -5495,39 +4955,33 @@ let check_beside z0 u rs bs alone =
       | None -> true) (zip rs bs))
 
 (** val zero_distinct :
-    zero_system -> unknown -> point -> point -> yield list -> region list ->
-    support_leaf option list -> yield list option **)
+    zero_system -> unknown -> point -> point -> yield list -> region list -> support_leaf
+    option list -> yield list option **)
 
 let zero_distinct z0 u lo hi yields0 rs ls =
   let families0 = families_of rs ls in
   if all (halves_apart z0) (map0 fst families0)
   then (match distinct_yields (size (slip (zero_pencil z0 u))) lo hi
                 (filter (fun y ->
-                  negb
-                    (has (belongs (size (slip (zero_pencil z0 u))) y)
-                      families0)) (cat yields0 (isolated_of rs ls))) with
+                  negb (has (belongs (size (slip (zero_pencil z0 u))) y) families0))
+                  (cat yields0 (isolated_of rs ls))) with
         | Some ys ->
-          if all (halves_apart z0) (map0 (fun y -> y.yield_region) ys)
-          then Some ys
-          else None
+          if all (halves_apart z0) (map0 (fun y -> y.yield_region) ys) then Some ys else None
         | None -> None)
   else None
 
-(** val zero_open :
-    zero_system -> region list -> support_leaf option list -> region list **)
+(** val zero_open : zero_system -> region list -> support_leaf option list -> region list **)
 
 let zero_open z0 rs ls =
   filter (fun r -> negb (both_halves z0 r)) (open_of rs ls)
 
-(** val zero_undecided :
-    cover -> point -> point -> pinned_box option list -> region list **)
+(** val zero_undecided : cover -> point -> point -> pinned_box option list -> region list **)
 
 let zero_undecided c lo hi bs =
   not_pinned (regions_open c lo hi) bs
 
 (** val check_boxes_beside :
-    zero_system -> unknown -> cover -> point -> point -> pinned_box option
-    list -> bool **)
+    zero_system -> unknown -> cover -> point -> point -> pinned_box option list -> bool **)
 
 let check_boxes_beside z0 u c lo hi bs =
   match c with
@@ -5539,8 +4993,8 @@ let check_boxes_beside z0 u c lo hi bs =
       (pinned_about z0 u w (expansions (zero_pencil z0 u) w))
 
 (** val check_zero_complete :
-    zero_system -> unknown -> solution_claim list -> cover -> point -> point
-    -> pinned_box option list -> support_leaf option list -> bool **)
+    zero_system -> unknown -> solution_claim list -> cover -> point -> point -> pinned_box
+    option list -> support_leaf option list -> bool **)
 
 let check_zero_complete z0 u claims c lo hi bs ls =
   (&&) (zero_wellformed z0 u)
@@ -5549,25 +5003,23 @@ let check_zero_complete z0 u claims c lo hi bs ls =
         (check_supports (zero_pencil z0 u) (zero_undecided c lo hi bs) ls)))
 
 (** val zero_solutions :
-    zero_system -> unknown -> solution_claim list -> cover -> point -> point
-    -> pinned_box option list -> support_leaf option list -> yield list option **)
+    zero_system -> unknown -> solution_claim list -> cover -> point -> point -> pinned_box
+    option list -> support_leaf option list -> yield list option **)
 
 let zero_solutions z0 u claims c lo hi bs ls =
   zero_distinct z0 u lo hi
     (cat (regions_found (zero_pencil z0 u) claims c lo hi)
-      (pinned_yields (regions_open c lo hi) bs)) (zero_undecided c lo hi bs)
-    ls
+      (pinned_yields (regions_open c lo hi) bs)) (zero_undecided c lo hi bs) ls
 
 (** val zero_families :
-    cover -> point -> point -> pinned_box option list -> support_leaf option
-    list -> family list **)
+    cover -> point -> point -> pinned_box option list -> support_leaf option list -> family list **)
 
 let zero_families c lo hi bs ls =
   families_of (zero_undecided c lo hi bs) ls
 
 (** val zero_still_open :
-    zero_system -> cover -> point -> point -> pinned_box option list ->
-    support_leaf option list -> region list **)
+    zero_system -> cover -> point -> point -> pinned_box option list -> support_leaf option
+    list -> region list **)
 
 let zero_still_open z0 c lo hi bs ls =
   zero_open z0 (zero_undecided c lo hi bs) ls
@@ -5580,36 +5032,30 @@ let row_at q e i =
 (** val point_pencil : pencil -> point -> pencil **)
 
 let point_pencil q e =
-  { order = q.order; rows_a =
-    (map0 (fun i -> row_at q e i) (iota 0 q.order)); rows_b =
+  { order = q.order; rows_a = (map0 (fun i -> row_at q e i) (iota 0 q.order)); rows_b =
     (nseq q.order []); free = q.free }
 
 (** val check_at_value :
-    pencil -> point -> solution_claim list -> cover -> support_leaf option
-    list -> bool **)
+    pencil -> point -> solution_claim list -> cover -> support_leaf option list -> bool **)
 
 let check_at_value q e claims c ls =
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd e))
     ((&&) (check_families (point_pencil q e) claims c e e ls)
-      (all (fun f ->
-        (&&) (same_point (fst f).lower e) (same_point (fst f).upper e))
+      (all (fun f -> (&&) (same_point (fst f).lower e) (same_point (fst f).upper e))
         (families c e e ls)))
 
 (** val zero_row : sparse_row -> bool **)
 
 let zero_row row =
-  all (fun c ->
-    Big_int_Z.eq_big_int (lookup row (fst c)) Big_int_Z.zero_big_int) row
+  all (fun c -> Big_int_Z.eq_big_int (lookup row (fst c)) Big_int_Z.zero_big_int) row
 
 (** val reverse_pencil : pencil -> pencil **)
 
 let reverse_pencil q =
   let constant0 = fun i -> zero_row (row_b q i) in
   { order = q.order; rows_a =
-  (map0 (fun i -> if constant0 i then row_a q i else row_b q i)
-    (iota 0 q.order)); rows_b =
-  (map0 (fun i -> if constant0 i then [] else row_a q i) (iota 0 q.order));
-  free = q.free }
+  (map0 (fun i -> if constant0 i then row_a q i else row_b q i) (iota 0 q.order)); rows_b =
+  (map0 (fun i -> if constant0 i then [] else row_a q i) (iota 0 q.order)); free = q.free }
 
 (** val check_infinity :
     pencil -> solution_claim list -> cover -> support_leaf option list -> bool **)
@@ -5630,29 +5076,23 @@ type contact =
 | Slipping of Big_int_Z.big_int
 | ZeroInContact
 
-type given_particle = { first_of : int; second_of : int;
-                        contact_of : contact;
+type given_particle = { first_of : int; second_of : int; contact_of : contact;
                         frame_tangent : (rational0 * rational0);
                         frame_normal : (rational0 * rational0);
-                        into_obstacle : Big_int_Z.big_int;
-                        factor_of : rational0 }
+                        into_obstacle : Big_int_Z.big_int; factor_of : rational0 }
 
 type rational_system = { degrees : int; given_stiffness : rational_row list;
-                         given_mass : rational_row list;
-                         given_particles : given_particle list }
+                         given_mass : rational_row list; given_particles : given_particle list }
 
 type rational_mcp_row = { given_m : rational_row; given_q : rational0;
-                          given_lower : rational0 option;
-                          given_upper : rational0 option }
+                          given_lower : rational0 option; given_upper : rational0 option }
 
 type candidate = { particle_of : given_particle; gap_of : rational0 }
 
 type load = { forces_of : rational_row; displacements_of : rational_row }
 
-type rational_body = { body_degrees : int;
-                       body_stiffness : rational_row list;
-                       candidates : candidate list; held_still : int list;
-                       loads : load list }
+type rational_body = { body_degrees : int; body_stiffness : rational_row list;
+                       candidates : candidate list; held_still : int list; loads : load list }
 
 type problem =
 | GivenPencil of rational_pencil
@@ -5666,8 +5106,7 @@ type integral =
 | ZeroProblem of zero_system * unknown
 | PlainProblem of mcp
 
-type scales = { entry_scale : Big_int_Z.big_int;
-                length_scale : Big_int_Z.big_int }
+type scales = { entry_scale : Big_int_Z.big_int; length_scale : Big_int_Z.big_int }
 
 (** val slips : given_particle -> bool **)
 
@@ -5729,8 +5168,7 @@ let exact m q =
     (Big_int_Z.eq_big_int (Big_int_Z.mult_big_int (snd q) (scaled_entry m q))
       (Big_int_Z.mult_big_int m (fst q)))
 
-(** val scaled_row :
-    Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list **)
+(** val scaled_row : Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list **)
 
 let scaled_row m row =
   map0 (fun e -> ((fst e), (scaled_entry m (snd e)))) row
@@ -5744,8 +5182,7 @@ let exact_rows m rows =
 
 let long_normal p =
   let component0 = fun n ->
-    ((Big_int_Z.mult_big_int p.into_obstacle
-       (Big_int_Z.mult_big_int (fst p.factor_of) (fst n))),
+    ((Big_int_Z.mult_big_int p.into_obstacle (Big_int_Z.mult_big_int (fst p.factor_of) (fst n))),
     (Big_int_Z.mult_big_int (snd p.factor_of) (snd n)))
   in
   ((component0 (fst p.frame_normal)), (component0 (snd p.frame_normal)))
@@ -5753,8 +5190,7 @@ let long_normal p =
 (** val scaled_planar : scales -> (rational0 * rational0) -> planar **)
 
 let scaled_planar c e =
-  ((scaled_entry c.length_scale (fst e)),
-    (scaled_entry c.length_scale (snd e)))
+  ((scaled_entry c.length_scale (fst e)), (scaled_entry c.length_scale (snd e)))
 
 (** val exact_planar : scales -> (rational0 * rational0) -> bool **)
 
@@ -5775,23 +5211,19 @@ let exact_particle c p =
 
 let scaled_particle c p =
   { first_dof = p.first_of; second_dof = p.second_of; tangent =
-    (scaled_planar c p.frame_tangent); normal =
-    (scaled_planar c (long_normal p)); sign_of = (sign p) }
+    (scaled_planar c p.frame_tangent); normal = (scaled_planar c (long_normal p)); sign_of =
+    (sign p) }
 
 (** val scaled_system : scales -> rational_system -> system **)
 
 let scaled_system c b =
   { dofs = b.degrees; stiffness =
-    (map0 (fun row -> scaled_row c.entry_scale row) b.given_stiffness);
-    mass = (map0 (fun row -> scaled_row c.entry_scale row) b.given_mass);
-    free_dofs =
+    (map0 (fun row -> scaled_row c.entry_scale row) b.given_stiffness); mass =
+    (map0 (fun row -> scaled_row c.entry_scale row) b.given_mass); free_dofs =
     (filter (fun d ->
-      negb
-        (in_mem (Obj.magic d)
-          (mem (seq_predType nat_eqType) (Obj.magic held b))))
-      (iota 0 b.degrees)); particles =
-    (map0 (fun p -> scaled_particle c p) (slipping b)); unit_length =
-    c.length_scale }
+      negb (in_mem (Obj.magic d) (mem (seq_predType nat_eqType) (Obj.magic held b))))
+      (iota 0 b.degrees)); particles = (map0 (fun p -> scaled_particle c p) (slipping b));
+    unit_length = c.length_scale }
 
 (** val scaled_zero_system : scales -> rational_system -> zero_system **)
 
@@ -5807,42 +5239,36 @@ let exact_system c b =
       ((&&) (exact_rows c.entry_scale b.given_stiffness)
         ((&&) (exact_rows c.entry_scale b.given_mass)
           ((&&) (uniq nat_eqType (Obj.magic dofs_of b.given_particles))
-            ((&&) (all (exact_particle c) (slipping b))
-              (all (exact_particle c) (with_zero b)))))))
+            ((&&) (all (exact_particle c) (slipping b)) (all (exact_particle c) (with_zero b)))))))
 
 (** val scaled_pencil : scales -> rational_pencil -> pencil **)
 
 let scaled_pencil c q =
-  { order = q.given_order; rows_a =
-    (map0 (fun row -> scaled_row c.entry_scale row) q.given_a); rows_b =
-    (map0 (fun row -> scaled_row c.entry_scale row) q.given_b); free =
-    q.given_free }
+  { order = q.given_order; rows_a = (map0 (fun row -> scaled_row c.entry_scale row) q.given_a);
+    rows_b = (map0 (fun row -> scaled_row c.entry_scale row) q.given_b); free = q.given_free }
 
 (** val exact_pencil : scales -> rational_pencil -> bool **)
 
 let exact_pencil c q =
   (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale)
-    ((&&) (exact_rows c.entry_scale q.given_a)
-      (exact_rows c.entry_scale q.given_b))
+    ((&&) (exact_rows c.entry_scale q.given_a) (exact_rows c.entry_scale q.given_b))
 
 (** val scaled_mcp_row : scales -> rational_mcp_row -> mcp_row **)
 
 let scaled_mcp_row c r =
   { row_m = (scaled_row c.entry_scale r.given_m); row_q =
-    (scaled_entry c.entry_scale r.given_q); lower_bound = r.given_lower;
-    upper_bound = r.given_upper }
+    (scaled_entry c.entry_scale r.given_q); lower_bound = r.given_lower; upper_bound =
+    r.given_upper }
 
 (** val exact_mcp_row : scales -> rational_mcp_row -> bool **)
 
 let exact_mcp_row c r =
-  (&&) (exact c.entry_scale r.given_q)
-    (all (fun e -> exact c.entry_scale (snd e)) r.given_m)
+  (&&) (exact c.entry_scale r.given_q) (all (fun e -> exact c.entry_scale (snd e)) r.given_m)
 
 (** val scaled : scales -> problem -> integral option **)
 
 let scaled c = function
-| GivenPencil q ->
-  if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
+| GivenPencil q -> if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
 | GivenSystem (b, u) ->
   if exact_system c b
   then Some
@@ -5851,8 +5277,7 @@ let scaled c = function
           else ZeroProblem ((scaled_zero_system c b), u))
   else None
 | GivenPlain rows ->
-  if (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale)
-       (all (exact_mcp_row c) rows)
+  if (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale) (all (exact_mcp_row c) rows)
   then Some (PlainProblem (map0 (fun r -> scaled_mcp_row c r) rows))
   else None
 | GivenLoads _ -> None
@@ -5870,28 +5295,22 @@ let pencil_of_integral = function
 let complementarity = function
 | GivenPencil q ->
   filter (fun i ->
-    negb
-      (in_mem (Obj.magic i)
-        (mem (seq_predType nat_eqType) (Obj.magic q.given_free))))
+    negb (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.given_free))))
     (iota 0 q.given_order)
 | GivenSystem (b, _) ->
   iota
     (count (fun d ->
-      negb
-        (in_mem (Obj.magic d)
-          (mem (seq_predType nat_eqType) (Obj.magic held b))))
+      negb (in_mem (Obj.magic d) (mem (seq_predType nat_eqType) (Obj.magic held b))))
       (iota 0 b.degrees))
     (addn (size (slipping b))
-      (muln (Natural.succ (Natural.succ (Natural.succ 0)))
-        (size (with_zero b))))
+      (muln (Natural.succ (Natural.succ (Natural.succ 0))) (size (with_zero b))))
 | _ -> []
 
-type solution_set = { solutions_in : yield list;
-                      families_of_set : family list;
+type solution_set = { solutions_in : yield list; families_of_set : family list;
                       open_regions : region list }
 
-type asserted = { asserted_from : point; asserted_to : point;
-                  asserted_support : int list; asserted_biactive : int list }
+type asserted = { asserted_from : point; asserted_to : point; asserted_support : int list;
+                  asserted_biactive : int list }
 
 type stated =
 | Apart
@@ -5912,13 +5331,10 @@ type statement =
 (** val is_held : rational_body -> int -> bool **)
 
 let is_held b d =
-  (||)
-    (in_mem (Obj.magic d)
-      (mem (seq_predType nat_eqType) (Obj.magic b.held_still)))
+  (||) (in_mem (Obj.magic d) (mem (seq_predType nat_eqType) (Obj.magic b.held_still)))
     (has (fun l ->
       in_mem (Obj.magic d)
-        (mem (seq_predType nat_eqType)
-          (Obj.magic map0 fst l.displacements_of))) b.loads)
+        (mem (seq_predType nat_eqType) (Obj.magic map0 fst l.displacements_of))) b.loads)
 
 (** val is_apart : stated -> bool **)
 
@@ -5932,8 +5348,7 @@ let touched b states0 d =
   has (fun c ->
     (&&) (negb (is_apart (snd c)))
       (in_mem (Obj.magic d)
-        (mem (seq_predType nat_eqType)
-          (Obj.magic dofs_of ((fst c).particle_of :: [])))))
+        (mem (seq_predType nat_eqType) (Obj.magic dofs_of ((fst c).particle_of :: [])))))
     (zip b.candidates states0)
 
 (** val integral_wellformed : integral -> bool **)
@@ -5948,14 +5363,12 @@ type equilibrium_evidence =
 | BoxAround of Big_int_Z.big_int list * matrix * Big_int_Z.big_int
 
 (** val dominated_row :
-    matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int ->
-    sparse_row -> bool **)
+    matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row -> bool **)
 
 let dominated_row y v w i row =
   let g = row_times y row in
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g i))
-    (Z.leb (Big_int_Z.abs_big_int (sparse_dot row v))
-      (Big_int_Z.mult_big_int (margin g i) w))
+    (Z.leb (Big_int_Z.abs_big_int (sparse_dot row v)) (Big_int_Z.mult_big_int (margin g i) w))
 
 (** val check_rows :
     int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool **)
@@ -5963,9 +5376,7 @@ let dominated_row y v w i row =
 let check_rows n eqs ineqs = function
 | ExactAt v ->
   (&&) (Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int v n))
-    ((&&)
-      (all (fun row ->
-        Big_int_Z.eq_big_int (sparse_dot row v) Big_int_Z.zero_big_int) eqs)
+    ((&&) (all (fun row -> Big_int_Z.eq_big_int (sparse_dot row v) Big_int_Z.zero_big_int) eqs)
       (all (fun row -> Z.ltb Big_int_Z.zero_big_int (sparse_dot row v)) ineqs))
 | BoxAround (v, y, w0) ->
   let eps = map0 (fun row -> Big_int_Z.mult_big_int (norm1 row) w0) y in
@@ -5973,14 +5384,12 @@ let check_rows n eqs ineqs = function
     ((&&) (leq (size y) n)
       ((&&) (Z.leb Big_int_Z.zero_big_int w0)
         ((&&) (all_from (dominated_row y v w0) 0 eqs)
-          (all (fun row -> Z.ltb (absolute_dot row eps) (sparse_dot row v))
-            ineqs))))
+          (all (fun row -> Z.ltb (absolute_dot row eps) (sparse_dot row v)) ineqs))))
 
 (** val times_rational : rational0 -> rational0 -> rational0 **)
 
 let times_rational a b =
-  ((Big_int_Z.mult_big_int (fst a) (fst b)),
-    (Big_int_Z.mult_big_int (snd a) (snd b)))
+  ((Big_int_Z.mult_big_int (fst a) (fst b)), (Big_int_Z.mult_big_int (snd a) (snd b)))
 
 (** val scaled_by : rational0 -> rational_row -> rational_row **)
 
@@ -5990,8 +5399,7 @@ let scaled_by a row =
 (** val negated : rational_row -> rational_row **)
 
 let negated =
-  scaled_by ((Big_int_Z.minus_big_int Big_int_Z.unit_big_int),
-    Big_int_Z.unit_big_int)
+  scaled_by ((Big_int_Z.minus_big_int Big_int_Z.unit_big_int), Big_int_Z.unit_big_int)
 
 (** val constant : rational_body -> rational0 -> rational_row **)
 
@@ -5999,59 +5407,51 @@ let constant b q =
   (b.body_degrees, q) :: []
 
 (** val applied_row :
-    rational_body -> rational0 list -> (load -> rational_row) -> int ->
-    rational_row **)
+    rational_body -> rational0 list -> (load -> rational_row) -> int -> rational_row **)
 
 let applied_row b amounts part d =
   flatten
     (map0 (fun la ->
       map0 (fun e -> (b.body_degrees, (times_rational (snd la) (snd e))))
-        (filter (fun e -> eq_op nat_eqType (fst (Obj.magic e)) (Obj.magic d))
-          (part (fst la)))) (zip b.loads amounts))
+        (filter (fun e -> eq_op nat_eqType (fst (Obj.magic e)) (Obj.magic d)) (part (fst la))))
+      (zip b.loads amounts))
 
 (** val displacement_row : int -> rational_row **)
 
 let displacement_row d =
   (d, (Big_int_Z.unit_big_int, Big_int_Z.unit_big_int)) :: []
 
-(** val reaction_row :
-    rational_body -> rational0 list -> int -> (int * rational0) list **)
+(** val reaction_row : rational_body -> rational0 list -> int -> (int * rational0) list **)
 
 let reaction_row b amounts d =
-  cat (nth [] b.body_stiffness d)
-    (negated (applied_row b amounts (fun l -> l.forces_of) d))
+  cat (nth [] b.body_stiffness d) (negated (applied_row b amounts (fun l -> l.forces_of) d))
 
-(** val tangential_row :
-    given_particle -> (int -> rational_row) -> (int * rational0) list **)
+(** val tangential_row : given_particle -> (int -> rational_row) -> (int * rational0) list **)
 
 let tangential_row p f =
   cat (scaled_by (fst p.frame_tangent) (f p.first_of))
     (scaled_by (snd p.frame_tangent) (f p.second_of))
 
-(** val normal_row :
-    given_particle -> (int -> rational_row) -> rational_row **)
+(** val normal_row : given_particle -> (int -> rational_row) -> rational_row **)
 
 let normal_row p f =
   scaled_by (p.into_obstacle, Big_int_Z.unit_big_int)
     (cat (scaled_by (fst p.frame_normal) (f p.first_of))
       (scaled_by (snd p.frame_normal) (f p.second_of)))
 
-(** val pressure_row :
-    rational_body -> rational0 list -> given_particle -> rational_row **)
+(** val pressure_row : rational_body -> rational0 list -> given_particle -> rational_row **)
 
 let pressure_row b amounts p =
   negated (normal_row p (reaction_row b amounts))
 
 (** val bound_row :
-    rational_body -> rational0 -> rational0 list -> given_particle ->
-    rational_row **)
+    rational_body -> rational0 -> rational0 list -> given_particle -> rational_row **)
 
 let bound_row b mu amounts p =
   scaled_by mu (scaled_by p.factor_of (pressure_row b amounts p))
 
 (** val equations_at :
-    rational_body -> rational0 list -> stated list -> int ->
-    (int * rational0) list list **)
+    rational_body -> rational0 list -> stated list -> int -> (int * rational0) list list **)
 
 let equations_at b amounts states0 d =
   if is_held b d
@@ -6060,20 +5460,17 @@ let equations_at b amounts states0 d =
   else if touched b states0 d then [] else (reaction_row b amounts d) :: []
 
 (** val state_equations :
-    rational_body -> rational0 -> rational0 list -> candidate -> stated ->
-    (int * rational0) list list **)
+    rational_body -> rational0 -> rational0 list -> candidate -> stated -> (int * rational0)
+    list list **)
 
 let state_equations b mu amounts c s =
   let p = c.particle_of in
-  let touching =
-    cat (normal_row p displacement_row) (negated (constant b c.gap_of))
-  in
+  let touching = cat (normal_row p displacement_row) (negated (constant b c.gap_of)) in
   let tangential = tangential_row p (reaction_row b amounts) in
   (match s with
    | Apart -> []
    | SticksAt place0 ->
-     touching :: ((cat (tangential_row p displacement_row)
-                    (negated (constant b place0))) :: [])
+     touching :: ((cat (tangential_row p displacement_row) (negated (constant b place0))) :: [])
    | SlipsWith sign0 ->
      touching :: ((cat (scaled_by (sign0, Big_int_Z.unit_big_int) tangential)
                     (negated (bound_row b mu amounts p))) :: [])
@@ -6081,46 +5478,36 @@ let state_equations b mu amounts c s =
      touching :: ((normal_row p (reaction_row b amounts)) :: (tangential :: [])))
 
 (** val state_inequalities :
-    rational_body -> rational0 -> rational0 list -> candidate -> stated ->
-    (int * rational0) list list **)
+    rational_body -> rational0 -> rational0 list -> candidate -> stated -> (int * rational0)
+    list list **)
 
 let state_inequalities b mu amounts c s =
   let p = c.particle_of in
   let tangential = tangential_row p (reaction_row b amounts) in
   (match s with
-   | Apart ->
-     (cat (constant b c.gap_of) (negated (normal_row p displacement_row))) :: []
+   | Apart -> (cat (constant b c.gap_of) (negated (normal_row p displacement_row))) :: []
    | SticksAt _ ->
-     (pressure_row b amounts p) :: ((cat (bound_row b mu amounts p)
-                                      (negated tangential)) :: ((cat
-                                                                  (bound_row
-                                                                    b mu
-                                                                    amounts p)
-                                                                  tangential) :: []))
+     (pressure_row b amounts p) :: ((cat (bound_row b mu amounts p) (negated tangential)) :: (
+       (cat (bound_row b mu amounts p) tangential) :: []))
    | SlipsWith _ -> (pressure_row b amounts p) :: []
    | WithoutReaction -> [])
 
 (** val of_candidates :
-    rational_body -> stated list -> (candidate -> stated -> rational_row
-    list) -> rational_row list **)
+    rational_body -> stated list -> (candidate -> stated -> rational_row list) -> rational_row
+    list **)
 
 let of_candidates b states0 rows =
   flatten (map0 (fun c -> rows (fst c) (snd c)) (zip b.candidates states0))
 
 (** val equations :
-    rational_body -> rational0 -> rational0 list -> stated list ->
-    (int * rational0) list list **)
+    rational_body -> rational0 -> rational0 list -> stated list -> (int * rational0) list list **)
 
 let equations b mu amounts states0 =
-  cat
-    (flatten
-      (map0 (fun d -> equations_at b amounts states0 d)
-        (iota 0 b.body_degrees)))
+  cat (flatten (map0 (fun d -> equations_at b amounts states0 d) (iota 0 b.body_degrees)))
     (of_candidates b states0 (state_equations b mu amounts))
 
 (** val inequalities :
-    rational_body -> rational0 -> rational0 list -> stated list ->
-    rational_row list **)
+    rational_body -> rational0 -> rational0 list -> stated list -> rational_row list **)
 
 let inequalities b mu amounts states0 =
   of_candidates b states0 (state_inequalities b mu amounts)
@@ -6128,8 +5515,7 @@ let inequalities b mu amounts states0 =
 (** val positive_rational : rational0 -> bool **)
 
 let positive_rational q =
-  (&&) (Z.ltb Big_int_Z.zero_big_int (fst q))
-    (Z.ltb Big_int_Z.zero_big_int (snd q))
+  (&&) (Z.ltb Big_int_Z.zero_big_int (fst q)) (Z.ltb Big_int_Z.zero_big_int (snd q))
 
 (** val lawful : (candidate * stated) -> bool **)
 
@@ -6138,27 +5524,21 @@ let lawful c =
     (match snd c with
      | SlipsWith sign0 ->
        (||) (Big_int_Z.eq_big_int sign0 Big_int_Z.unit_big_int)
-         (Big_int_Z.eq_big_int sign0 (Big_int_Z.minus_big_int
-           Big_int_Z.unit_big_int))
+         (Big_int_Z.eq_big_int sign0 (Big_int_Z.minus_big_int Big_int_Z.unit_big_int))
      | _ -> true)
 
-(** val well_stated :
-    rational_body -> rational0 -> rational0 list -> stated list -> bool **)
+(** val well_stated : rational_body -> rational0 -> rational0 list -> stated list -> bool **)
 
 let well_stated b mu amounts states0 =
   (&&) (positive_rational mu)
-    ((&&)
-      (eq_op nat_eqType (Obj.magic size amounts) (Obj.magic size b.loads))
-      ((&&)
-        (eq_op nat_eqType (Obj.magic size states0)
-          (Obj.magic size b.candidates))
-        ((&&)
-          (all (all (fun e -> leq (Natural.succ (fst e)) b.body_degrees))
-            b.body_stiffness) (all lawful (zip b.candidates states0)))))
+    ((&&) (eq_op nat_eqType (Obj.magic size amounts) (Obj.magic size b.loads))
+      ((&&) (eq_op nat_eqType (Obj.magic size states0) (Obj.magic size b.candidates))
+        ((&&) (all (all (fun e -> leq (Natural.succ (fst e)) b.body_degrees)) b.body_stiffness)
+          (all lawful (zip b.candidates states0)))))
 
 (** val check_equilibrium :
-    rational_body -> rational0 -> rational0 list -> stated list ->
-    Big_int_Z.big_int -> equilibrium_evidence -> bool **)
+    rational_body -> rational0 -> rational0 list -> stated list -> Big_int_Z.big_int ->
+    equilibrium_evidence -> bool **)
 
 let check_equilibrium b mu amounts states0 m w =
   let eqs = equations b mu amounts states0 in
@@ -6175,24 +5555,22 @@ let check_equilibrium b mu amounts states0 m w =
 let signed_part p e i j =
   if eq_op nat_eqType (Obj.magic i) (Obj.magic j)
   then Big_int_Z.sub_big_int
-         (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2
-           Big_int_Z.unit_big_int) (center p e i i))
-         (sumZ (indices p) (fun k ->
-           Big_int_Z.add_big_int (radius p e i k) (radius p e k i)))
+         (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+           (center p e i i))
+         (sumZ (indices p) (fun k -> Big_int_Z.add_big_int (radius p e i k) (radius p e k i)))
   else Big_int_Z.add_big_int (center p e i j) (center p e j i)
 
 (** val signed_end : enclosed -> bool -> point -> factor -> bool **)
 
 let signed_end p strict e f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
-    ((&&)
-      (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic p.size_of))
+    ((&&) (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic p.size_of))
       (covered (signed_part p e) (weighted_dot f.weights) strict
         (zip (indices p) f.factor_rows)))
 
 (** val check_rates :
-    system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
-    -> factor -> factor -> bool **)
+    system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> factor ->
+    factor -> bool **)
 
 let check_rates s lo hi w low high =
   let q = pencil_of s Mu in
@@ -6206,17 +5584,15 @@ let check_rates s lo hi w low high =
             ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
               ((&&) (ordered lo hi)
                 ((&&) (signed_end p true lo low)
-                  (signed_end p (Z.ltb Big_int_Z.zero_big_int (snd hi)) hi
-                    high))))))))
+                  (signed_end p (Z.ltb Big_int_Z.zero_big_int (snd hi)) hi high))))))))
 
 (** val check_given_rates :
-    scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    point -> elimination -> factor -> factor -> bool **)
+    scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point ->
+    elimination -> factor -> factor -> bool **)
 
 let check_given_rates c b lo hi w low high =
   (&&) (exact_system c b)
-    ((&&) (nilp (with_zero b))
-      (check_rates (scaled_system c b) lo hi w low high))
+    ((&&) (nilp (with_zero b)) (check_rates (scaled_system c b) lo hi w low high))
 
 type claim_evidence =
 | OfPencil of solution_claim
@@ -6229,8 +5605,7 @@ type cover_evidence =
 | CoverAtValue of solution_claim list * cover * support_leaf option list
 
 type absence_evidence =
-| ByElimination of (elimination * (matrix * matrix)) option
-   * critical_leaf tree
+| ByElimination of (elimination * (matrix * matrix)) option * critical_leaf tree
 | ByAnchors of box_anchoring * anchored_box_leaf tree
 
 type evidence =
@@ -6241,8 +5616,7 @@ type evidence =
 | Presence of point * point * box_anchoring * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
 | Points of mcp_point list
-| Equilibrium of rational0 * rational0 list * stated list
-   * equilibrium_evidence
+| Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
 
 type answered =
 | Proved of statement
@@ -6253,32 +5627,27 @@ type answered =
 (** val asserted_of : solution_claim -> asserted **)
 
 let asserted_of k =
-  { asserted_from = (claimed_from k); asserted_to = (claimed_to k);
-    asserted_support = (claimed_support k); asserted_biactive =
-    (claimed_biactive k) }
+  { asserted_from = (claimed_from k); asserted_to = (claimed_to k); asserted_support =
+    (claimed_support k); asserted_biactive = (claimed_biactive k) }
 
 (** val asserted_motion : zero_claim -> asserted **)
 
 let asserted_motion c =
   let k = c.lifted_part.motion_claim in
-  { asserted_from = (k.claim_from, k.claim_denominator); asserted_to =
-  (k.claim_to, k.claim_denominator); asserted_support = k.support;
-  asserted_biactive = k.biactive }
+  { asserted_from = (k.claim_from, k.claim_denominator); asserted_to = (k.claim_to,
+  k.claim_denominator); asserted_support = k.support; asserted_biactive = k.biactive }
 
-(** val claim_answer :
-    integral -> pencil -> claim_evidence -> asserted option **)
+(** val claim_answer : integral -> pencil -> claim_evidence -> asserted option **)
 
 let claim_answer p q c =
   match p with
   | PencilProblem _ ->
     (match c with
-     | OfPencil k ->
-       if check_solution_claim q k then Some (asserted_of k) else None
+     | OfPencil k -> if check_solution_claim q k then Some (asserted_of k) else None
      | _ -> None)
   | SystemProblem (s, u) ->
     (match c with
-     | OfPencil k ->
-       if check_solution_claim q k then Some (asserted_of k) else None
+     | OfPencil k -> if check_solution_claim q k then Some (asserted_of k) else None
      | OfMotion c0 ->
        if check_zero { without_zero = s; zero_particles = [] } u c0
        then Some (asserted_motion c0)
@@ -6287,13 +5656,11 @@ let claim_answer p q c =
   | ZeroProblem (z0, u) ->
     (match c with
      | OfPencil _ -> None
-     | OfMotion c0 ->
-       if check_zero z0 u c0 then Some (asserted_motion c0) else None
+     | OfMotion c0 -> if check_zero z0 u c0 then Some (asserted_motion c0) else None
      | OfZeroBox c0 ->
        if check_zero_enclosed z0 u c0
-       then Some { asserted_from = c0.box_from; asserted_to = c0.box_to;
-              asserted_support = c0.box_support; asserted_biactive =
-              (resting_halves z0 c0.box_support) }
+       then Some { asserted_from = c0.box_from; asserted_to = c0.box_to; asserted_support =
+              c0.box_support; asserted_biactive = (resting_halves z0 c0.box_support) }
        else None)
   | PlainProblem _ -> None
 
@@ -6303,8 +5670,8 @@ let in_window lo hi a =
   within (a.asserted_from, a.asserted_to) (lo, hi)
 
 (** val all_asserted :
-    integral -> pencil -> point -> point -> int -> claim_evidence list ->
-    (asserted list, int) sum **)
+    integral -> pencil -> point -> point -> int -> claim_evidence list -> (asserted list, int)
+    sum **)
 
 let rec all_asserted p q lo hi k = function
 | [] -> Inl []
@@ -6326,16 +5693,13 @@ let claims_answer p q lo hi l =
   | Inl said -> Proved (EachExists (lo, hi, said))
   | Inr refused -> ClaimRefused refused
 
-(** val answer_claims :
-    integral -> point -> point -> claim_evidence list -> answered **)
+(** val answer_claims : integral -> point -> point -> claim_evidence list -> answered **)
 
 let answer_claims p lo hi l =
   match p with
   | PencilProblem q -> claims_answer p q lo hi l
   | SystemProblem (s, u) ->
-    if system_wellformed s u
-    then claims_answer p (pencil_of s u) lo hi l
-    else EvidenceRefused
+    if system_wellformed s u then claims_answer p (pencil_of s u) lo hi l else EvidenceRefused
   | ZeroProblem (_, _) ->
     claims_answer p { order = 0; rows_a = []; rows_b = []; free = [] } lo hi l
   | PlainProblem _ -> EvidenceRefused
@@ -6347,21 +5711,20 @@ let told solutions make =
   | Some ys -> Proved (make ys)
   | None -> NotToldApart
 
-(** val answer_cover :
-    pencil -> point -> point -> cover_evidence -> answered **)
+(** val answer_cover : pencil -> point -> point -> cover_evidence -> answered **)
 
 let answer_cover q lo hi = function
 | CoverInWindow (claims, c, _, ls) ->
   if check_families q claims c lo hi ls
-  then told (all_solutions q claims c lo hi ls) (fun ys -> AllInWindow (lo,
-         hi, { solutions_in = ys; families_of_set = (families c lo hi ls);
-         open_regions = (still_open c lo hi ls) }))
+  then told (all_solutions q claims c lo hi ls) (fun ys -> AllInWindow (lo, hi,
+         { solutions_in = ys; families_of_set = (families c lo hi ls); open_regions =
+         (still_open c lo hi ls) }))
   else EvidenceRefused
 | CoverAtValue (claims, c, ls) ->
   if (&&) (same_point lo hi) (check_at_value q lo claims c ls)
-  then told (all_solutions (point_pencil q lo) claims c lo lo ls) (fun ys ->
-         AllInWindow (lo, lo, { solutions_in = ys; families_of_set =
-         (families c lo lo ls); open_regions = (still_open c lo lo ls) }))
+  then told (all_solutions (point_pencil q lo) claims c lo lo ls) (fun ys -> AllInWindow (lo,
+         lo, { solutions_in = ys; families_of_set = (families c lo lo ls); open_regions =
+         (still_open c lo lo ls) }))
   else EvidenceRefused
 
 (** val answer_zero_cover :
@@ -6370,28 +5733,23 @@ let answer_cover q lo hi = function
 let answer_zero_cover z0 u lo hi = function
 | CoverInWindow (claims, c, bs, ls) ->
   if check_zero_complete z0 u claims c lo hi bs ls
-  then told (zero_solutions z0 u claims c lo hi bs ls) (fun ys -> AllInWindow
-         (lo, hi, { solutions_in = ys; families_of_set =
-         (zero_families c lo hi bs ls); open_regions =
+  then told (zero_solutions z0 u claims c lo hi bs ls) (fun ys -> AllInWindow (lo, hi,
+         { solutions_in = ys; families_of_set = (zero_families c lo hi bs ls); open_regions =
          (zero_still_open z0 c lo hi bs ls) }))
   else EvidenceRefused
 | CoverAtValue (_, _, _) -> EvidenceRefused
 
 (** val answer_infinity :
-    pencil -> solution_claim list -> cover -> support_leaf option list ->
-    answered **)
+    pencil -> solution_claim list -> cover -> support_leaf option list -> answered **)
 
 let answer_infinity q claims c ls =
   if check_infinity q claims c ls
-  then told
-         (all_solutions (point_pencil (reverse_pencil q) zero) claims c zero
-           zero ls) (fun ys -> AllAtInfinity { solutions_in = ys;
-         families_of_set = (families c zero zero ls); open_regions =
-         (still_open c zero zero ls) })
+  then told (all_solutions (point_pencil (reverse_pencil q) zero) claims c zero zero ls)
+         (fun ys -> AllAtInfinity { solutions_in = ys; families_of_set =
+         (families c zero zero ls); open_regions = (still_open c zero zero ls) })
   else EvidenceRefused
 
-(** val check_absence :
-    zero_system -> point -> point -> absence_evidence -> bool **)
+(** val check_absence : zero_system -> point -> point -> absence_evidence -> bool **)
 
 let check_absence z0 from bound1 = function
 | ByElimination (w, tr) -> check_critical z0 w tr from bound1
@@ -6422,9 +5780,7 @@ let integral_answer p = function
   (match p with
    | PencilProblem q -> answer_cover q lo hi c
    | SystemProblem (s, u) ->
-     if system_wellformed s u
-     then answer_cover (pencil_of s u) lo hi c
-     else EvidenceRefused
+     if system_wellformed s u then answer_cover (pencil_of s u) lo hi c else EvidenceRefused
    | ZeroProblem (z0, u) -> answer_zero_cover z0 u lo hi c
    | PlainProblem _ -> EvidenceRefused)
 | CoverAtInfinity (claims, c, ls) ->
@@ -6433,15 +5789,12 @@ let integral_answer p = function
    | _ -> answer_infinity (pencil_of_integral p) claims c ls)
 | Absence (from, bound1, a) ->
   (match zero_system_of p with
-   | Some z0 ->
-     proved_if (check_absence z0 from bound1 a) (NoneForFriction (from,
-       bound1))
+   | Some z0 -> proved_if (check_absence z0 from bound1 a) (NoneForFriction (from, bound1))
    | None -> EvidenceRefused)
 | Presence (from, bound1, w, pieces) ->
   (match zero_system_of p with
    | Some z0 ->
-     proved_if (check_presence z0 w pieces from bound1) (OneForEachFriction
-       (from, bound1))
+     proved_if (check_presence z0 w pieces from bound1) (OneForEachFriction (from, bound1))
    | None -> EvidenceRefused)
 | Points points ->
   (match p with
@@ -6453,8 +5806,7 @@ let integral_answer p = function
 
 let scaled_answer p c e =
   match scaled c p with
-  | Some q ->
-    if integral_wellformed q then integral_answer q e else EvidenceRefused
+  | Some q -> if integral_wellformed q then integral_answer q e else EvidenceRefused
   | None -> EvidenceRefused
 
 (** val answer : problem -> scales -> evidence -> answered **)
@@ -6464,13 +5816,12 @@ let answer p c e =
   | GivenSystem (b, _) ->
     (match e with
      | DefiniteRates (lo, hi, w, low, high) ->
-       proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates
-         (lo, hi))
+       proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates (lo, hi))
      | _ -> scaled_answer p c e)
   | GivenLoads b ->
     (match e with
      | Equilibrium (mu, amounts, states0, w) ->
-       proved_if (check_equilibrium b mu amounts states0 c.entry_scale w)
-         (InEquilibrium (mu, amounts, states0))
+       proved_if (check_equilibrium b mu amounts states0 c.entry_scale w) (InEquilibrium (mu,
+         amounts, states0))
      | _ -> scaled_answer p c e)
   | _ -> scaled_answer p c e

@@ -30,8 +30,7 @@ type reflect =
 
 module Pos :
  sig
-  val compare_cont :
-    comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
+  val compare_cont : comparison -> Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
 
   val compare : Big_int_Z.big_int -> Big_int_Z.big_int -> comparison
  end
@@ -56,8 +55,7 @@ module Option :
   val map : ('a1 -> 'a2) -> 'a1 option -> 'a2 option
  end
 
-type ('aT, 'rT) simpl_fun =
-  'aT -> 'rT
+type ('aT, 'rT) simpl_fun = 'aT -> 'rT
   (* singleton inductive, whose constructor was SimplFun *)
 
 val fun_of_simpl : ('a1, 'a2) simpl_fun -> 'a1 -> 'a2
@@ -72,8 +70,7 @@ val idP : bool -> reflect
 
 type 't pred0 = 't -> bool
 
-type 't predType =
-  __ -> 't pred0
+type 't predType = __ -> 't pred0
   (* singleton inductive, whose constructor was PredType *)
 
 type 't pred_sort = __
@@ -89,8 +86,7 @@ module PredOfSimpl :
 
 type 't rel = 't -> 't pred0
 
-type 't mem_pred =
-  't pred0
+type 't mem_pred = 't pred0
   (* singleton inductive, whose constructor was Mem *)
 
 val pred_of_mem : 'a1 mem_pred -> 'a1 pred_sort
@@ -107,8 +103,7 @@ module Equality :
 
   val op : 'a1 mixin_of -> 'a1 rel
 
-  type coq_type =
-    __ mixin_of
+  type coq_type = __ mixin_of
     (* singleton inductive, whose constructor was Pack *)
 
   type sort = __
@@ -242,15 +237,15 @@ type 'leaf tree =
 | Leaf of 'leaf
 
 val check_boxes :
-  int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 tree -> region ->
-  point -> point -> bool
+  int -> (region -> point -> point -> 'a1 -> bool) -> 'a1 tree -> region -> point -> point ->
+  bool
 
 val check_tree : int -> (region -> 'a1 -> bool) -> 'a1 tree -> region -> bool
 
 val leaves : 'a1 tree -> region -> (region * 'a1) list
 
-type enclosed = { size_of : int; center_a : matrix; center_b : matrix;
-                  radius_a : matrix; radius_b : matrix }
+type enclosed = { size_of : int; center_a : matrix; center_b : matrix; radius_a : matrix;
+                  radius_b : matrix }
 
 val indices : enclosed -> int list
 
@@ -258,55 +253,47 @@ val center : enclosed -> point -> int -> int -> Big_int_Z.big_int
 
 val radius : enclosed -> point -> int -> int -> Big_int_Z.big_int
 
-val column_bound :
-  enclosed -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int
+val column_bound : enclosed -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int
 
-val strict_column :
-  enclosed -> region -> Big_int_Z.big_int list -> int -> bool
+val strict_column : enclosed -> region -> Big_int_Z.big_int list -> int -> bool
 
 val signs_of_weights : enclosed -> region -> Big_int_Z.big_int list -> bool
 
-val columns_at_most_zero :
-  enclosed -> region -> Big_int_Z.big_int list -> bool
+val columns_at_most_zero : enclosed -> region -> Big_int_Z.big_int list -> bool
 
 val every_column_strict : enclosed -> region -> Big_int_Z.big_int list -> bool
 
-val some_moving_column_strict :
-  enclosed -> region -> Big_int_Z.big_int list -> bool
+val some_moving_column_strict : enclosed -> region -> Big_int_Z.big_int list -> bool
 
 val farkas : enclosed -> region -> Big_int_Z.big_int list -> bool
 
-val strict_in_both :
-  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool
+val strict_in_both : enclosed -> enclosed -> region -> Big_int_Z.big_int list -> int -> bool
 
-val box_farkas :
-  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool
+val box_farkas : enclosed -> enclosed -> region -> Big_int_Z.big_int list -> bool
 
-val sum_from :
-  (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int
+val sum_from : (int -> 'a1 -> Big_int_Z.big_int) -> int -> 'a1 list -> Big_int_Z.big_int
 
 val all_from : (int -> 'a1 -> bool) -> int -> 'a1 list -> bool
 
 val map_from : (int -> 'a1 -> 'a2) -> int -> 'a1 list -> 'a2 list
 
 val remainder :
-  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
-  ('a1 * 'a2) -> ('a1 * 'a2) -> Big_int_Z.big_int
+  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) -> ('a1 * 'a2) ->
+  ('a1 * 'a2) -> Big_int_Z.big_int
 
 val off_diagonal :
-  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
-  ('a1 * 'a2) list -> Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int
+  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) -> ('a1 * 'a2) list ->
+  Equality.sort -> ('a1 * 'a2) -> Big_int_Z.big_int
 
 val covered :
-  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) ->
-  bool -> ('a1 * 'a2) list -> bool
+  ('a1 -> 'a1 -> Big_int_Z.big_int) -> ('a2 -> 'a2 -> Big_int_Z.big_int) -> bool -> ('a1 * 'a2)
+  list -> bool
 
 val weighted_dot :
-  Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-  -> Big_int_Z.big_int
+  Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int
 
-val dot :
-  Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+val dot : Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
 type late_row = int * Big_int_Z.big_int list
 
@@ -316,103 +303,86 @@ type factor = { weights : Big_int_Z.big_int list; factor_rows : matrix }
 
 val active : enclosed -> region -> int list
 
-val symmetric_part :
-  enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int
+val symmetric_part : enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int
 
-val definite_end :
-  enclosed -> bool -> bool -> point -> region -> factor -> bool
+val definite_end : enclosed -> bool -> bool -> point -> region -> factor -> bool
 
 val definite : enclosed -> bool -> region -> factor -> factor -> bool
 
 val box_definite :
-  enclosed -> enclosed -> region -> bool -> (factor * factor) ->
-  (factor * factor) -> bool
+  enclosed -> enclosed -> region -> bool -> (factor * factor) -> (factor * factor) -> bool
 
-type box = { inverse : matrix; unit_low : Big_int_Z.big_int;
-             unit_high : Big_int_Z.big_int; width : Big_int_Z.big_int }
+type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
+             width : Big_int_Z.big_int }
 
-type uniqueness = { system_inverse : matrix;
-                    system_unit_low : Big_int_Z.big_int;
-                    system_unit_high : Big_int_Z.big_int;
-                    rate : Big_int_Z.big_int }
+type uniqueness = { system_inverse : matrix; system_unit_low : Big_int_Z.big_int;
+                    system_unit_high : Big_int_Z.big_int; rate : Big_int_Z.big_int }
 
 val unit_entry : Big_int_Z.big_int -> int -> int -> Big_int_Z.big_int
 
-val product_center :
-  enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int
+val product_center : enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int
 
-val product_radius :
-  enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int
+val product_radius : enclosed -> int list -> matrix -> point -> int -> int -> Big_int_Z.big_int
 
 val defect :
-  enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int ->
-  Big_int_Z.big_int
+  enclosed -> int list -> matrix -> Big_int_Z.big_int -> point -> int -> Big_int_Z.big_int
 
 val residual :
-  enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
-  point -> int -> Big_int_Z.big_int
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix -> point -> int ->
+  Big_int_Z.big_int
 
 val contracts :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-  Big_int_Z.big_int -> bool
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
 val box_row :
-  enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix ->
-  Big_int_Z.big_int -> Big_int_Z.big_int -> point -> int -> bool
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> point -> int -> bool
 
 val box_end :
-  enclosed -> int list -> int list -> Big_int_Z.big_int list -> box ->
-  Big_int_Z.big_int -> point -> bool
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> box -> Big_int_Z.big_int ->
+  point -> bool
 
 val check_box :
-  enclosed -> int list -> int list -> Big_int_Z.big_int list -> box -> point
-  -> point -> bool
+  enclosed -> int list -> int list -> Big_int_Z.big_int list -> box -> point -> point -> bool
 
 val sum_center :
-  int list -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) ->
-  Big_int_Z.big_int
+  int list -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) -> Big_int_Z.big_int
 
 val sum_radius :
-  int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) ->
-  (int -> Big_int_Z.big_int) -> Big_int_Z.big_int -> Big_int_Z.big_int
+  int list -> int -> Big_int_Z.big_int list -> (int -> Big_int_Z.big_int) -> (int ->
+  Big_int_Z.big_int) -> Big_int_Z.big_int -> Big_int_Z.big_int
 
 val rate_center :
-  enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int ->
-  Big_int_Z.big_int
+  enclosed -> int list -> Big_int_Z.big_int list -> matrix -> int -> Big_int_Z.big_int
 
 val rate_radius :
-  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-  Big_int_Z.big_int -> int -> Big_int_Z.big_int
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int -> int
+  -> Big_int_Z.big_int
 
 val system_center :
-  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int ->
-  Equality.sort -> Big_int_Z.big_int
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort -> Big_int_Z.big_int
 
 val system_radius :
-  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-  Big_int_Z.big_int -> Big_int_Z.big_int ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort ->
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> Equality.sort ->
   Big_int_Z.big_int
 
 val unique_row :
-  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix ->
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> int -> bool
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> int ->
+  bool
 
 val unique_end :
-  enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
-  Big_int_Z.big_int -> Big_int_Z.big_int ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> bool
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness -> Big_int_Z.big_int ->
+  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) -> bool
 
 val check_unique :
-  enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness ->
-  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> bool
+  enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) -> bool
 
-type isolation = { pivot : int; vector : Big_int_Z.big_int list;
-                   from_point : point; to_point : point; wide_box : box;
-                   narrow_box : box; unique : uniqueness;
+type isolation = { pivot : int; vector : Big_int_Z.big_int list; from_point : point;
+                   to_point : point; wide_box : box; narrow_box : box; unique : uniqueness;
                    left_vector : Big_int_Z.big_int list }
 
 type outcome =
@@ -420,8 +390,8 @@ type outcome =
 | NegativeX of int
 | NegativeY of int
 
-type absence = { absent_pivot : int; absent_vector : Big_int_Z.big_int list;
-                 absent_box : box; absent_left : Big_int_Z.big_int list }
+type absence = { absent_pivot : int; absent_vector : Big_int_Z.big_int list; absent_box : 
+                 box; absent_left : Big_int_Z.big_int list }
 
 val moving : enclosed -> region -> int list
 
@@ -432,36 +402,35 @@ val decided : enclosed -> region -> bool
 val point_le : point -> point -> bool
 
 val left_center :
-  enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-  point -> Big_int_Z.big_int
-
-val left_radius :
-  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int -> point -> Big_int_Z.big_int
-
-val left_negative :
-  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int -> point -> bool
-
-val left_positive :
-  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int -> point -> bool
-
-val row_center :
-  enclosed -> region -> Big_int_Z.big_int list -> point -> int ->
+  enclosed -> region -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> point ->
   Big_int_Z.big_int
 
+val left_radius :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int -> point -> Big_int_Z.big_int
+
+val left_negative :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int -> point -> bool
+
+val left_positive :
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int -> point -> bool
+
+val row_center :
+  enclosed -> region -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int
+
 val row_radius :
-  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
-  point -> int -> Big_int_Z.big_int
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> int ->
+  Big_int_Z.big_int
 
 val row_positive :
-  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
-  point -> int -> bool
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> int ->
+  bool
 
 val row_negative :
-  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
-  point -> int -> bool
+  enclosed -> region -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> int ->
+  bool
 
 val interval_inside : region -> isolation -> bool
 
@@ -479,12 +448,11 @@ val check_root : enclosed -> region -> isolation -> outcome -> bool
 
 val check_absent : enclosed -> region -> absence -> bool
 
-type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list;
-                 pin_box : box; pin_unique : uniqueness; pin_reversed : 
-                 bool }
+type pinning = { pin_pivot : int; pin_vector : Big_int_Z.big_int list; pin_box : box;
+                 pin_unique : uniqueness; pin_reversed : bool }
 
-type known = { known_from : point; known_to : point;
-               known_support : int list; known_biactive : int list }
+type known = { known_from : point; known_to : point; known_support : int list;
+               known_biactive : int list }
 
 val swap : point -> point
 
@@ -533,12 +501,12 @@ val yields : enclosed -> known list -> 'a1 leaf tree -> region -> yield list
 val undecided : 'a1 leaf tree -> region -> region list
 
 val check_leaf :
-  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
-  Big_int_Z.big_int list -> bool) -> region -> 'a1 leaf -> bool
+  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int -> Big_int_Z.big_int list
+  -> bool) -> region -> 'a1 leaf -> bool
 
 val check_cover :
-  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int ->
-  Big_int_Z.big_int list -> bool) -> 'a1 leaf tree -> point -> point -> bool
+  enclosed -> known list -> (region -> 'a1 -> bool) -> (region -> int -> Big_int_Z.big_int list
+  -> bool) -> 'a1 leaf tree -> point -> point -> bool
 
 val same_state : state -> state -> bool
 
@@ -561,8 +529,7 @@ val same_solution : int -> yield -> yield -> bool
 val different_solutions : int -> yield -> yield -> bool
 
 val distinct :
-  int -> point -> point -> yield list -> yield list -> yield list -> yield
-  list option
+  int -> point -> point -> yield list -> yield list -> yield list -> yield list option
 
 val distinct_yields : int -> point -> point -> yield list -> yield list option
 
@@ -572,38 +539,31 @@ val lookup : sparse_row -> int -> Big_int_Z.big_int
 
 val times_row : Big_int_Z.big_int -> sparse_row -> sparse_row
 
-type form_bound = { bound_times : Big_int_Z.big_int;
-                    bound_at : Big_int_Z.big_int;
+type form_bound = { bound_times : Big_int_Z.big_int; bound_at : Big_int_Z.big_int;
                     gram_times : Big_int_Z.big_int; gram_rows : late_row list }
 
 val spread : sparse_row -> Big_int_Z.big_int list
 
-val shifted_row :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row
+val shifted_row : Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row
 
 val symmetric_rows_sparse : sparse_row list -> bool
 
 val distance :
-  Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list ->
-  Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> late_row -> late_row list -> Big_int_Z.big_int
 
 val row_bounded :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> late_row
-  list -> int -> (sparse_row * late_row) -> bool
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> late_row list -> int ->
+  (sparse_row * late_row) -> bool
 
 val bounded_rows : Equality.sort -> sparse_row list -> form_bound -> bool
 
-type blocks = { free_count : int; slip_count : int; ff : sparse_row list;
-                fs : matrix; sf_a : matrix; sf_b : matrix; ss_a : matrix;
-                ss_b : matrix }
+type blocks = { free_count : int; slip_count : int; ff : sparse_row list; fs : matrix;
+                sf_a : matrix; sf_b : matrix; ss_a : matrix; ss_b : matrix }
 
-type elimination = { row_scale : Big_int_Z.big_int list;
-                     unit_of : Big_int_Z.big_int; right_w : matrix;
-                     left_va : matrix; left_vb : matrix;
-                     bound_c : Big_int_Z.big_int;
-                     bound_d : Big_int_Z.big_int;
-                     factor_scale : Big_int_Z.big_int;
-                     stiffness_factor : late_row list }
+type elimination = { row_scale : Big_int_Z.big_int list; unit_of : Big_int_Z.big_int;
+                     right_w : matrix; left_va : matrix; left_vb : matrix;
+                     bound_c : Big_int_Z.big_int; bound_d : Big_int_Z.big_int;
+                     factor_scale : Big_int_Z.big_int; stiffness_factor : late_row list }
 
 val sparse_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
@@ -615,17 +575,14 @@ val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
 val stiffness_positive : blocks -> elimination -> bool
 
-val residual_column :
-  blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list
+val residual_column : blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list
 
 val table : blocks -> (int -> int -> Big_int_Z.big_int) -> matrix
 
-val condensed_center :
-  blocks -> elimination -> matrix -> matrix -> matrix -> matrix -> matrix
+val condensed_center : blocks -> elimination -> matrix -> matrix -> matrix -> matrix -> matrix
 
 val condensed_radius :
-  blocks -> elimination -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-  -> matrix
+  blocks -> elimination -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> matrix
 
 val condensed : blocks -> elimination -> enclosed
 
@@ -633,13 +590,11 @@ val shapes : blocks -> elimination -> bool
 
 val check_elimination : blocks -> elimination -> bool
 
-val mark :
-  (int -> 'a1) -> int -> int list -> 'a1 option list -> 'a1 option list
+val mark : (int -> 'a1) -> int -> int list -> 'a1 option list -> 'a1 option list
 
 val places : int list -> int option list
 
-type pencil = { order : int; rows_a : sparse_row list;
-                rows_b : sparse_row list; free : int list }
+type pencil = { order : int; rows_a : sparse_row list; rows_b : sparse_row list; free : int list }
 
 val slip : pencil -> int list
 
@@ -663,8 +618,8 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : 
-               bool; low_end : whole_end; high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : bool;
+               low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
@@ -676,26 +631,21 @@ val members : pencil -> Big_int_Z.big_int list -> region -> member list
 
 val member_entry : point -> member -> member -> Big_int_Z.big_int
 
-val member_form :
-  bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
+val member_form : bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
 
 val check_end :
-  pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region ->
-  whole_end -> bool
+  pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region -> whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
 type polynomial = Big_int_Z.big_int list
 
-type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial;
-                   rest : polynomial }
+type reduction = { multiplier : Big_int_Z.big_int; quotient : polynomial; rest : polynomial }
 
 type claim = { modulus : polynomial; claim_from : Big_int_Z.big_int;
-               claim_to : Big_int_Z.big_int;
-               claim_denominator : Big_int_Z.big_int; support : int list;
-               biactive : int list; components : polynomial list;
-               component_reductions : reduction list;
-               reaction_reductions : reduction list }
+               claim_to : Big_int_Z.big_int; claim_denominator : Big_int_Z.big_int;
+               support : int list; biactive : int list; components : polynomial list;
+               component_reductions : reduction list; reaction_reductions : reduction list }
 
 val scale_poly : Big_int_Z.big_int -> polynomial -> polynomial
 
@@ -706,16 +656,14 @@ val mul_poly : polynomial -> polynomial -> polynomial
 val zero_poly : polynomial -> bool
 
 val horner_interval :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-  -> (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int
 
 val lower_value :
-  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-  Big_int_Z.big_int
+  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
 val upper_value :
-  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-  Big_int_Z.big_int
+  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
 val modulus_changes_sign : claim -> bool
 
@@ -755,32 +703,26 @@ val columns_in_order : pencil -> bool
 
 val check_claim : pencil -> claim -> bool
 
-type enclosed_claim = { box_support : int list; box_from : point;
-                        box_to : point; box_pivot : int;
-                        box_center : Big_int_Z.big_int list;
-                        right_inverse : matrix;
-                        box_width : Big_int_Z.big_int;
-                        rate_width : Big_int_Z.big_int;
-                        left_null : Big_int_Z.big_int list }
+type enclosed_claim = { box_support : int list; box_from : point; box_to : point;
+                        box_pivot : int; box_center : Big_int_Z.big_int list;
+                        right_inverse : matrix; box_width : Big_int_Z.big_int;
+                        rate_width : Big_int_Z.big_int; left_null : Big_int_Z.big_int list }
 
 val add_multiple :
-  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-  Big_int_Z.big_int list
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list
 
 val scatter :
-  Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list ->
-  Big_int_Z.big_int list
+  Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int list
 
 val row_times : matrix -> sparse_row -> Big_int_Z.big_int list
 
 val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
-val at_end :
-  point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+val at_end : point -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 
 val row_at_end :
-  point -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-  Big_int_Z.big_int list
+  point -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int list
 
 val box_active : pencil -> enclosed_claim -> Equality.sort -> bool
 
@@ -795,60 +737,52 @@ val vanishes_elsewhere : pencil -> enclosed_claim -> bool
 val margin : Big_int_Z.big_int list -> int -> Big_int_Z.big_int
 
 val dominated :
-  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
-  Big_int_Z.big_int -> bool
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
+  bool
 
 val dominated_at :
-  enclosed_claim -> point -> int -> Big_int_Z.big_int list ->
-  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-  Big_int_Z.big_int -> bool
+  enclosed_claim -> point -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
 val dominated_ends :
-  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-  -> Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
+  enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
-val regular_row :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool
+val regular_row : pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool
 
 val norms : enclosed_claim -> Big_int_Z.big_int list
 
 val widths : enclosed_claim -> Big_int_Z.big_int list
 
-val left_times :
-  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list
+val left_times : pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int list
 
-val left_value :
-  pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int
+val left_value : pencil -> enclosed_claim -> (int -> sparse_row) -> Big_int_Z.big_int
 
 val weighted_norm :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int
 
 val above_radius :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-  point -> bool
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int -> point -> bool
 
 val below_radius :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-  point -> bool
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int -> point -> bool
 
 val opposite_signs :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int ->
-  bool
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool
 
-val determinant_changes_sign :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
+val determinant_changes_sign : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
 
 val one_root_at :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> point -> bool
 
 val one_root_between :
-  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
+  pencil -> enclosed_claim -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> Big_int_Z.big_int -> bool
 
 val one_root : pencil -> enclosed_claim -> Big_int_Z.big_int list -> bool
 
@@ -882,27 +816,23 @@ val known_solutions : pencil -> solution_claim list -> known list
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val check_blocks :
-  pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
-  point -> blocks -> bool
+  pencil -> solution_claim list -> elimination -> whole leaf tree -> point -> point -> blocks
+  -> bool
 
 val check_complete :
-  pencil -> solution_claim list -> elimination -> whole leaf tree -> point ->
-  point -> bool
+  pencil -> solution_claim list -> elimination -> whole leaf tree -> point -> point -> bool
 
-val found :
-  pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield
-  list
+val found : pencil -> solution_claim list -> whole leaf tree -> point -> point -> yield list
 
 val left_open : whole leaf tree -> point -> point -> region list
 
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
-type slip_particle = { first_dof : int; second_dof : int; tangent : planar;
-                       normal : planar; sign_of : Big_int_Z.big_int }
+type slip_particle = { first_dof : int; second_dof : int; tangent : planar; normal : planar;
+                       sign_of : Big_int_Z.big_int }
 
-type system = { dofs : int; stiffness : sparse_row list;
-                mass : sparse_row list; free_dofs : int list;
-                particles : slip_particle list;
+type system = { dofs : int; stiffness : sparse_row list; mass : sparse_row list;
+                free_dofs : int list; particles : slip_particle list;
                 unit_length : Big_int_Z.big_int }
 
 type linear_form = sparse_row * sparse_row
@@ -913,8 +843,7 @@ type unknown =
 
 val table_row : sparse_row list -> sparse_row -> sparse_row
 
-val pencil_of_forms :
-  sparse_row list -> int -> linear_form list -> int list -> pencil
+val pencil_of_forms : sparse_row list -> int -> linear_form list -> int list -> pencil
 
 val free_number : system -> int
 
@@ -938,15 +867,13 @@ val column_rows : system -> sparse_row list
 
 val multiple : Big_int_Z.big_int -> sparse_row -> sparse_row
 
-val direction :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
+val direction : Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
 
 val at_both : (int -> sparse_row) -> slip_particle -> planar -> sparse_row
 
 val force_form : system -> unknown -> int -> linear_form
 
-val pressing_form :
-  system -> unknown -> planar -> slip_particle -> linear_form
+val pressing_form : system -> unknown -> planar -> slip_particle -> linear_form
 
 val cone_form : system -> unknown -> slip_particle -> linear_form
 
@@ -965,10 +892,8 @@ val particle_wellformed : system -> slip_particle -> bool
 val system_wellformed : system -> unknown -> bool
 
 type lifted = { motion_claim : claim; forces : polynomial list;
-                force_reductions : reduction list;
-                balance_reductions : reduction list;
-                normal_reductions : reduction list;
-                rate_reductions : reduction list;
+                force_reductions : reduction list; balance_reductions : reduction list;
+                normal_reductions : reduction list; rate_reductions : reduction list;
                 cone_reductions : reduction list }
 
 val witness : reduction list -> int -> reduction
@@ -1003,15 +928,11 @@ val is_biactive : system -> lifted -> int -> bool
 
 val particle_states : system -> unknown -> lifted -> int -> bool
 
-type zero_system = { without_zero : system;
-                     zero_particles : slip_particle list }
+type zero_system = { without_zero : system; zero_particles : slip_particle list }
 
-type zero_claim = { lifted_part : lifted;
-                    opening_reductions : reduction list;
-                    pressure_reductions : reduction list;
-                    sliding_reductions : reduction list;
-                    right_reductions : reduction list;
-                    left_reductions : reduction list }
+type zero_claim = { lifted_part : lifted; opening_reductions : reduction list;
+                    pressure_reductions : reduction list; sliding_reductions : reduction list;
+                    right_reductions : reduction list; left_reductions : reduction list }
 
 val zero_particle : zero_system -> int -> slip_particle
 
@@ -1049,13 +970,12 @@ val check_zero : zero_system -> unknown -> zero_claim -> bool
 
 type bound = (Big_int_Z.big_int * Big_int_Z.big_int) option
 
-type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int;
-                 lower_bound : bound; upper_bound : bound }
+type mcp_row = { row_m : sparse_row; row_q : Big_int_Z.big_int; lower_bound : bound;
+                 upper_bound : bound }
 
 type mcp = mcp_row list
 
-type mcp_point = { numerators : Big_int_Z.big_int list;
-                   denominator : Big_int_Z.big_int }
+type mcp_point = { numerators : Big_int_Z.big_int list; denominator : Big_int_Z.big_int }
 
 val no_row : mcp_row
 
@@ -1089,8 +1009,7 @@ type place =
 | Between of value * value
 | Above of value
 
-type near = { near_multiplier : Big_int_Z.big_int; near_power : int;
-              near_cofactor : polynomial }
+type near = { near_multiplier : Big_int_Z.big_int; near_power : int; near_cofactor : polynomial }
 
 type sign_evidence =
 | Identity
@@ -1098,21 +1017,17 @@ type sign_evidence =
 | Parts of near * point list * near
 
 val low_on :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-  -> Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
 val high_on :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-  -> Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
 val slope_interval :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-  ->
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
   ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int
 
 val slope_low :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-  -> Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
 val check_value : value -> bool
 
@@ -1136,8 +1051,7 @@ val moebius : point -> point -> polynomial -> polynomial * polynomial
 
 val positive_on : bool -> point -> point -> polynomial -> bool
 
-val positive_between :
-  bool -> point -> point list -> point -> polynomial -> bool
+val positive_between : bool -> point -> point list -> point -> polynomial -> bool
 
 val end_of : value -> point
 
@@ -1163,8 +1077,8 @@ type refutation = { row_weights : poly_vector; weight_signs : signed list;
 
 type bound0 = { bounded : int; bound_signs : refutation }
 
-type branch = { branch_x : poly_vector; x_signs : signed list;
-                y_signs : signed list; alone_by : (int * bound0 list) option }
+type branch = { branch_x : poly_vector; x_signs : signed list; y_signs : signed list;
+                alone_by : (int * bound0 list) option }
 
 type reason =
 | Refuted of refutation
@@ -1175,8 +1089,7 @@ type chain =
 | Last of reason
 | Next of reason * value * reason * chain
 
-type support_leaf = { first_value : value; first_reason : reason;
-                      further : chain }
+type support_leaf = { first_value : value; first_reason : reason; further : chain }
 
 type holding = { held_place : place; held_alone : bool }
 
@@ -1252,9 +1165,7 @@ val isolated_in : region -> support_leaf -> yield list
 
 val families_in : region -> support_leaf -> family list
 
-val pairs :
-  region list -> support_leaf option list -> (region * support_leaf option)
-  list
+val pairs : region list -> support_leaf option list -> (region * support_leaf option) list
 
 val check_supports : pencil -> region list -> support_leaf option list -> bool
 
@@ -1305,12 +1216,11 @@ val norms0 : matrix list -> int -> polynomial
 val derivative : polynomial -> polynomial
 
 val homogeneous :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-  Big_int_Z.big_int * Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int * Big_int_Z.big_int
 
 val substituted :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial
-  -> polynomial * Big_int_Z.big_int
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+  polynomial * Big_int_Z.big_int
 
 val spread_of : polynomial -> Big_int_Z.big_int
 
@@ -1329,13 +1239,10 @@ type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
                 anchor_scale : Big_int_Z.big_int list }
 
 type anchor_family = { series_z : matrix list; left_norms : polynomial list;
-                       right_norms : polynomial list;
-                       drift : Big_int_Z.big_int }
+                       right_norms : polynomial list; drift : Big_int_Z.big_int }
 
-type local_entry = { local_a : Big_int_Z.big_int;
-                     local_b : Big_int_Z.big_int;
-                     local_ra : Big_int_Z.big_int;
-                     local_rb : Big_int_Z.big_int }
+type local_entry = { local_a : Big_int_Z.big_int; local_b : Big_int_Z.big_int;
+                     local_ra : Big_int_Z.big_int; local_rb : Big_int_Z.big_int }
 
 type local_leaf =
 | LocalFarkas of Big_int_Z.big_int list
@@ -1356,16 +1263,14 @@ val sf_block : pencil -> (int -> sparse_row) -> matrix
 val ss_block : pencil -> (int -> sparse_row) -> matrix
 
 val residual_series :
-  anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list
-  -> matrix list
+  anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list -> matrix list
 
 val center_series : pencil -> anchor -> matrix list -> matrix list
 
 val row_sum : sparse_row -> Big_int_Z.big_int
 
 val expand_from :
-  pencil -> anchor -> sparse_row list -> matrix list -> matrix list ->
-  anchor_family
+  pencil -> anchor -> sparse_row list -> matrix list -> matrix list -> anchor_family
 
 val small : pencil -> matrix list -> bool
 
@@ -1385,38 +1290,34 @@ val bound_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int
 
 val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int
 
-val proper_interval :
-  anchor -> form_bound -> form_bound -> point -> point -> bool
+val proper_interval : anchor -> form_bound -> form_bound -> point -> point -> bool
 
 val remainder_radius :
   anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  Big_int_Z.big_int
 
 val remainder_slope :
-  anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
-  Big_int_Z.big_int -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> Big_int_Z.big_int
+  anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> Big_int_Z.big_int ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  Big_int_Z.big_int
 
 val entry_of :
-  anchor -> form_bound -> form_bound -> anchor_family -> point -> point ->
-  bool -> polynomial -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry
+  anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool -> polynomial
+  -> (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
+  local_entry
 
-val rounded :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry
+val rounded : Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry
 
 val local_entries :
-  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-  point -> bool -> Big_int_Z.big_int -> local_entry list list
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool ->
+  Big_int_Z.big_int -> local_entry list list
 
 val local_pencil :
-  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-  point -> bool -> Big_int_Z.big_int -> enclosed
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool ->
+  Big_int_Z.big_int -> enclosed
 
 val local_point : point -> point -> point -> point
 
@@ -1433,16 +1334,16 @@ val local_region : region -> region
 val check_local : enclosed -> region -> local_leaf -> bool
 
 val check_anchored :
-  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-  point -> region -> Big_int_Z.big_int -> local_leaf -> bool
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> region ->
+  Big_int_Z.big_int -> local_leaf -> bool
 
 val check_anchored_claim :
-  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-  point -> region -> Big_int_Z.big_int -> pinning -> known -> bool
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> region ->
+  Big_int_Z.big_int -> pinning -> known -> bool
 
 val check_anchored_limit :
-  int -> anchor -> form_bound -> form_bound -> anchor_family -> point ->
-  point -> region -> Big_int_Z.big_int -> pinning -> bool
+  int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> region ->
+  Big_int_Z.big_int -> pinning -> bool
 
 type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
                    anchors : (bool * anchor) list }
@@ -1450,8 +1351,7 @@ type anchoring = { stiffness_bound : form_bound; mass_bound : form_bound;
 type varying_leaf =
 | OfAnchor of int * Big_int_Z.big_int * interval * local_leaf
 | OfClaim of int * Big_int_Z.big_int * interval * pinning * int
-| OfLimit of int * Big_int_Z.big_int * interval * pinning
-   * Big_int_Z.big_int list
+| OfLimit of int * Big_int_Z.big_int * interval * pinning * Big_int_Z.big_int list
 | OfWhole of whole
 | LeftOpen
 
@@ -1473,43 +1373,39 @@ val expansions : pencil -> anchoring -> anchor_family option list
 
 val finite_root : local_leaf -> bool
 
-val check_direction :
-  pencil -> region -> int -> Big_int_Z.big_int list -> bool
+val check_direction : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val at_anchor :
-  anchoring -> anchor_family option list -> int -> region -> (bool -> anchor
-  -> form_bound -> form_bound -> anchor_family -> region -> bool) -> bool
+  anchoring -> anchor_family option list -> int -> region -> (bool -> anchor -> form_bound ->
+  form_bound -> anchor_family -> region -> bool) -> bool
 
 val leaf_at :
-  pencil -> Big_int_Z.big_int -> local_leaf -> bool -> anchor -> form_bound
-  -> form_bound -> anchor_family -> region -> bool
+  pencil -> Big_int_Z.big_int -> local_leaf -> bool -> anchor -> form_bound -> form_bound ->
+  anchor_family -> region -> bool
 
 val claim_at :
-  pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor ->
-  form_bound -> form_bound -> anchor_family -> region -> bool
+  pencil -> Big_int_Z.big_int -> pinning -> known -> bool -> anchor -> form_bound -> form_bound
+  -> anchor_family -> region -> bool
 
 val limit_at :
-  pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool ->
-  anchor -> form_bound -> form_bound -> anchor_family -> region -> bool
+  pencil -> Big_int_Z.big_int -> pinning -> Big_int_Z.big_int list -> bool -> anchor ->
+  form_bound -> form_bound -> anchor_family -> region -> bool
 
 val check_varying_leaf :
-  pencil -> anchoring -> anchor_family option list -> known list -> region ->
-  varying_leaf -> bool
+  pencil -> anchoring -> anchor_family option list -> known list -> region -> varying_leaf ->
+  bool
 
 val bounds_hold : pencil -> anchoring -> bool
 
 val check_varying :
-  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point ->
-  point -> bool
+  pencil -> solution_claim list -> anchoring -> varying_leaf tree -> point -> point -> bool
 
 val claim_yield : pencil -> region -> known -> yield option
 
-val varying_yield :
-  pencil -> solution_claim list -> (region * varying_leaf) -> yield option
+val varying_yield : pencil -> solution_claim list -> (region * varying_leaf) -> yield option
 
 val varying_found :
-  pencil -> solution_claim list -> varying_leaf tree -> point -> point ->
-  yield list
+  pencil -> solution_claim list -> varying_leaf tree -> point -> point -> yield list
 
 val varying_open : varying_leaf tree -> point -> point -> region list
 
@@ -1517,60 +1413,48 @@ type cover =
 | Eliminated of elimination * whole leaf tree
 | Anchored of anchoring * varying_leaf tree
 
-val check_cover_of :
-  pencil -> solution_claim list -> cover -> point -> point -> bool
+val check_cover_of : pencil -> solution_claim list -> cover -> point -> point -> bool
 
-val regions_found :
-  pencil -> solution_claim list -> cover -> point -> point -> yield list
+val regions_found : pencil -> solution_claim list -> cover -> point -> point -> yield list
 
 val regions_open : cover -> point -> point -> region list
 
-val families :
-  cover -> point -> point -> support_leaf option list -> family list
+val families : cover -> point -> point -> support_leaf option list -> family list
 
-val still_open :
-  cover -> point -> point -> support_leaf option list -> region list
+val still_open : cover -> point -> point -> support_leaf option list -> region list
 
 val all_solutions :
-  pencil -> solution_claim list -> cover -> point -> point -> support_leaf
-  option list -> yield list option
+  pencil -> solution_claim list -> cover -> point -> point -> support_leaf option list -> yield
+  list option
 
 val check_families :
-  pencil -> solution_claim list -> cover -> point -> point -> support_leaf
-  option list -> bool
+  pencil -> solution_claim list -> cover -> point -> point -> support_leaf option list -> bool
 
 val mixed_matrix : point -> matrix -> matrix -> matrix
 
 val mixed : point -> enclosed -> enclosed -> enclosed
 
 type regular = { regular_pivot : int; regular_inverse : matrix;
-                 regular_units : Big_int_Z.big_int list;
-                 regular_left : Big_int_Z.big_int list;
+                 regular_units : Big_int_Z.big_int list; regular_left : Big_int_Z.big_int list;
                  regular_right : Big_int_Z.big_int list;
-                 regular_widths : Big_int_Z.big_int list; regular_minus : 
-                 bool }
+                 regular_widths : Big_int_Z.big_int list; regular_minus : bool }
 
 val combine_rows : Big_int_Z.big_int list -> matrix -> Big_int_Z.big_int list
 
-val against_right :
-  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
+val against_right : int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
-val against_radius :
-  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
+val against_radius : int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
 val off_pivot :
-  int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list ->
-  Big_int_Z.big_int list -> Big_int_Z.big_int
+  int -> regular -> Big_int_Z.big_int -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list -> Big_int_Z.big_int
 
-val regular_row0 :
-  int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool
+val regular_row0 : int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> int -> bool
 
-val regular_rows :
-  int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool
+val regular_rows : int -> regular -> matrix -> matrix -> Big_int_Z.big_int -> bool
 
 val row_slack :
-  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
-  Big_int_Z.big_int
+  int -> regular -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
 val regular_sign : int -> regular -> matrix -> matrix -> bool
 
@@ -1582,17 +1466,13 @@ val corner_pencil : enclosed -> enclosed -> int -> enclosed
 
 val corner_end : region -> int -> point
 
-val corner_center :
-  enclosed -> enclosed -> region -> int list -> int -> matrix
+val corner_center : enclosed -> enclosed -> region -> int list -> int -> matrix
 
-val corner_radius :
-  enclosed -> enclosed -> region -> int list -> int -> matrix
+val corner_radius : enclosed -> enclosed -> region -> int list -> int -> matrix
 
-val rows_at :
-  enclosed -> enclosed -> region -> int list -> regular -> int -> bool
+val rows_at : enclosed -> enclosed -> region -> int list -> regular -> int -> bool
 
-val sign_at0 :
-  enclosed -> enclosed -> region -> int list -> regular -> int -> bool
+val sign_at0 : enclosed -> enclosed -> region -> int list -> regular -> int -> bool
 
 val four_corners : int list
 
@@ -1606,8 +1486,7 @@ val turned : slip_particle -> planar
 
 val unit_normal : slip_particle -> planar
 
-val three_columns :
-  zero_system -> int -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row
+val three_columns : zero_system -> int -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row
 
 val zero_columns : zero_system -> Equality.sort -> sparse_row
 
@@ -1642,8 +1521,7 @@ type critical_leaf =
 | BoxWhole of whole * whole
 | BoxHalves
 
-val check_parts :
-  enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
+val check_parts : enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
 
 val freed : zero_system -> zero_system
 
@@ -1655,28 +1533,24 @@ val freed_weight : zero_system -> whole -> Equality.sort -> Big_int_Z.big_int
 
 val zero_weights : zero_system -> whole -> bool
 
-val check_whole_leaf :
-  zero_system -> region -> point -> point -> critical_leaf -> bool
+val check_whole_leaf : zero_system -> region -> point -> point -> critical_leaf -> bool
 
 val with_left : elimination -> (matrix * matrix) -> elimination
 
 val condensed_parts :
-  zero_system -> (elimination * (matrix * matrix)) option ->
-  (enclosed * enclosed) option
+  zero_system -> (elimination * (matrix * matrix)) option -> (enclosed * enclosed) option
 
-val parts_eliminated :
-  zero_system -> (elimination * (matrix * matrix)) option -> bool
+val parts_eliminated : zero_system -> (elimination * (matrix * matrix)) option -> bool
 
 val check_critical_leaf :
-  zero_system -> (enclosed * enclosed) option -> region -> point -> point ->
-  critical_leaf -> bool
+  zero_system -> (enclosed * enclosed) option -> region -> point -> point -> critical_leaf ->
+  bool
 
 val check_critical :
-  zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf
-  tree -> point -> point -> bool
+  zero_system -> (elimination * (matrix * matrix)) option -> critical_leaf tree -> point ->
+  point -> bool
 
-type box_anchor = { reversed_anchor : bool; plain_anchor : anchor;
-                    friction_left : matrix list }
+type box_anchor = { reversed_anchor : bool; plain_anchor : anchor; friction_left : matrix list }
 
 type box_anchoring = { stiffness_below : form_bound; mass_below : form_bound;
                        box_anchors : box_anchor list }
@@ -1689,80 +1563,68 @@ val friction_anchor : anchor -> matrix list -> anchor
 
 val expand_part : pencil -> bool -> anchor -> anchor_family option
 
-val expand_box :
-  zero_system -> box_anchor -> (anchor_family * anchor_family) option
+val expand_box : zero_system -> box_anchor -> (anchor_family * anchor_family) option
 
 val check_local_leaf :
-  (region -> bool) -> enclosed -> enclosed -> region -> point -> point ->
-  critical_leaf -> bool
+  (region -> bool) -> enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
 
 val local_part :
-  zero_system -> form_bound -> form_bound -> anchor -> anchor_family -> point
-  -> point -> Big_int_Z.big_int -> enclosed
+  zero_system -> form_bound -> form_bound -> anchor -> anchor_family -> point -> point ->
+  Big_int_Z.big_int -> enclosed
 
 val check_about :
-  zero_system -> form_bound -> form_bound -> box_anchor ->
-  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
-  point -> critical_leaf tree -> bool
+  zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
+  Big_int_Z.big_int -> region -> point -> point -> critical_leaf tree -> bool
 
 val no_box_anchor : box_anchor
 
-val box_expansions :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
+val box_expansions : zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
 
 val check_anchored_box :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
-  -> region -> point -> point -> anchored_box_leaf -> bool
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> region ->
+  point -> point -> anchored_box_leaf -> bool
 
 val both_bounded : zero_system -> box_anchoring -> bool
 
 val check_anchored_critical :
-  zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point ->
-  bool
+  zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool
 
-type presence = { presence_box : regular; presence_start : regular;
-                  presence_finish : regular }
+type presence = { presence_box : regular; presence_start : regular; presence_finish : regular }
 
-val rest_row :
-  enclosed -> enclosed -> region -> int -> regular -> int -> int -> bool
+val rest_row : enclosed -> enclosed -> region -> int -> regular -> int -> int -> bool
 
 val positive_vector : regular -> bool
 
-val presence_edge :
-  enclosed -> enclosed -> region -> int -> regular -> int list -> bool
+val presence_edge : enclosed -> enclosed -> region -> int -> regular -> int list -> bool
 
 val presence_inside : enclosed -> enclosed -> region -> int -> regular -> bool
 
 val check_presence_piece :
-  (enclosed * enclosed) -> (enclosed * enclosed) -> (enclosed * enclosed) ->
-  region -> presence -> bool
+  (enclosed * enclosed) -> (enclosed * enclosed) -> (enclosed * enclosed) -> region -> presence
+  -> bool
 
-type presence_piece = { piece_end : point; piece_region : region;
-                        piece_anchor : int; piece_grain : Big_int_Z.big_int;
-                        piece_after : point; piece_before : point;
-                        piece_witness : presence }
+type presence_piece = { piece_end : point; piece_region : region; piece_anchor : int;
+                        piece_grain : Big_int_Z.big_int; piece_after : point;
+                        piece_before : point; piece_witness : presence }
 
 val ends_over :
-  zero_system -> form_bound -> form_bound -> box_anchor ->
-  (anchor_family * anchor_family) -> Big_int_Z.big_int -> point -> point ->
-  point -> point -> enclosed * enclosed
+  zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
+  Big_int_Z.big_int -> point -> point -> point -> point -> enclosed * enclosed
 
 val check_present :
-  zero_system -> form_bound -> form_bound -> box_anchor ->
-  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point ->
-  point -> point -> point -> presence -> bool
+  zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
+  Big_int_Z.big_int -> region -> point -> point -> point -> point -> presence -> bool
 
 val check_piece :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
-  -> point -> presence_piece -> bool
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
+  presence_piece -> bool
 
 val check_pieces :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
-  -> point -> presence_piece list -> point -> bool
+  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
+  presence_piece list -> point -> bool
 
 val check_presence :
-  zero_system -> box_anchoring -> presence_piece list -> point -> point ->
-  bool
+  zero_system -> box_anchoring -> presence_piece list -> point -> point -> bool
 
 val one_half : zero_system -> int list -> int -> bool
 
@@ -1772,77 +1634,68 @@ val support_pencil : zero_system -> unknown -> int list -> pencil
 
 val check_zero_enclosed : zero_system -> unknown -> enclosed_claim -> bool
 
-type pinned_box = { box_interval : interval; near_anchor : int;
-                    near_grain : Big_int_Z.big_int; box_pinning : pinning;
-                    box_claim : enclosed_claim }
+type pinned_box = { box_interval : interval; near_anchor : int; near_grain : Big_int_Z.big_int;
+                    box_pinning : pinning; box_claim : enclosed_claim }
 
 val known_box : zero_system -> unknown -> pinned_box -> known
 
 val pinned_yield : region -> pinned_box -> yield
 
-val pinned_alone :
-  zero_system -> unknown -> enclosed -> region -> pinned_box -> bool
+val pinned_alone : zero_system -> unknown -> enclosed -> region -> pinned_box -> bool
 
 val pinned_about :
-  zero_system -> unknown -> anchoring -> anchor_family option list -> region
-  -> pinned_box -> bool
+  zero_system -> unknown -> anchoring -> anchor_family option list -> region -> pinned_box ->
+  bool
 
 val check_pinned :
-  zero_system -> unknown -> (region -> pinned_box -> bool) -> region ->
-  pinned_box -> bool
+  zero_system -> unknown -> (region -> pinned_box -> bool) -> region -> pinned_box -> bool
 
 val pinned_yields : region list -> pinned_box option list -> yield list
 
 val not_pinned : region list -> pinned_box option list -> region list
 
 val check_beside :
-  zero_system -> unknown -> region list -> pinned_box option list -> (region
-  -> pinned_box -> bool) -> bool
+  zero_system -> unknown -> region list -> pinned_box option list -> (region -> pinned_box ->
+  bool) -> bool
 
 val zero_distinct :
-  zero_system -> unknown -> point -> point -> yield list -> region list ->
-  support_leaf option list -> yield list option
+  zero_system -> unknown -> point -> point -> yield list -> region list -> support_leaf option
+  list -> yield list option
 
-val zero_open :
-  zero_system -> region list -> support_leaf option list -> region list
+val zero_open : zero_system -> region list -> support_leaf option list -> region list
 
-val zero_undecided :
-  cover -> point -> point -> pinned_box option list -> region list
+val zero_undecided : cover -> point -> point -> pinned_box option list -> region list
 
 val check_boxes_beside :
-  zero_system -> unknown -> cover -> point -> point -> pinned_box option list
-  -> bool
+  zero_system -> unknown -> cover -> point -> point -> pinned_box option list -> bool
 
 val check_zero_complete :
-  zero_system -> unknown -> solution_claim list -> cover -> point -> point ->
-  pinned_box option list -> support_leaf option list -> bool
+  zero_system -> unknown -> solution_claim list -> cover -> point -> point -> pinned_box option
+  list -> support_leaf option list -> bool
 
 val zero_solutions :
-  zero_system -> unknown -> solution_claim list -> cover -> point -> point ->
-  pinned_box option list -> support_leaf option list -> yield list option
+  zero_system -> unknown -> solution_claim list -> cover -> point -> point -> pinned_box option
+  list -> support_leaf option list -> yield list option
 
 val zero_families :
-  cover -> point -> point -> pinned_box option list -> support_leaf option
-  list -> family list
+  cover -> point -> point -> pinned_box option list -> support_leaf option list -> family list
 
 val zero_still_open :
-  zero_system -> cover -> point -> point -> pinned_box option list ->
-  support_leaf option list -> region list
+  zero_system -> cover -> point -> point -> pinned_box option list -> support_leaf option list
+  -> region list
 
 val row_at : pencil -> point -> int -> sparse_row
 
 val point_pencil : pencil -> point -> pencil
 
 val check_at_value :
-  pencil -> point -> solution_claim list -> cover -> support_leaf option list
-  -> bool
+  pencil -> point -> solution_claim list -> cover -> support_leaf option list -> bool
 
 val zero_row : sparse_row -> bool
 
 val reverse_pencil : pencil -> pencil
 
-val check_infinity :
-  pencil -> solution_claim list -> cover -> support_leaf option list -> bool
+val check_infinity : pencil -> solution_claim list -> cover -> support_leaf option list -> bool
 
 type rational0 = Big_int_Z.big_int * Big_int_Z.big_int
 
@@ -1857,29 +1710,23 @@ type contact =
 | Slipping of Big_int_Z.big_int
 | ZeroInContact
 
-type given_particle = { first_of : int; second_of : int;
-                        contact_of : contact;
+type given_particle = { first_of : int; second_of : int; contact_of : contact;
                         frame_tangent : (rational0 * rational0);
                         frame_normal : (rational0 * rational0);
-                        into_obstacle : Big_int_Z.big_int;
-                        factor_of : rational0 }
+                        into_obstacle : Big_int_Z.big_int; factor_of : rational0 }
 
 type rational_system = { degrees : int; given_stiffness : rational_row list;
-                         given_mass : rational_row list;
-                         given_particles : given_particle list }
+                         given_mass : rational_row list; given_particles : given_particle list }
 
 type rational_mcp_row = { given_m : rational_row; given_q : rational0;
-                          given_lower : rational0 option;
-                          given_upper : rational0 option }
+                          given_lower : rational0 option; given_upper : rational0 option }
 
 type candidate = { particle_of : given_particle; gap_of : rational0 }
 
 type load = { forces_of : rational_row; displacements_of : rational_row }
 
-type rational_body = { body_degrees : int;
-                       body_stiffness : rational_row list;
-                       candidates : candidate list; held_still : int list;
-                       loads : load list }
+type rational_body = { body_degrees : int; body_stiffness : rational_row list;
+                       candidates : candidate list; held_still : int list; loads : load list }
 
 type problem =
 | GivenPencil of rational_pencil
@@ -1893,8 +1740,7 @@ type integral =
 | ZeroProblem of zero_system * unknown
 | PlainProblem of mcp
 
-type scales = { entry_scale : Big_int_Z.big_int;
-                length_scale : Big_int_Z.big_int }
+type scales = { entry_scale : Big_int_Z.big_int; length_scale : Big_int_Z.big_int }
 
 val slips : given_particle -> bool
 
@@ -1916,8 +1762,7 @@ val scaled_entry : Big_int_Z.big_int -> rational0 -> Big_int_Z.big_int
 
 val exact : Big_int_Z.big_int -> rational0 -> bool
 
-val scaled_row :
-  Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list
+val scaled_row : Big_int_Z.big_int -> rational_row -> (int * Big_int_Z.big_int) list
 
 val exact_rows : Big_int_Z.big_int -> rational_row list -> bool
 
@@ -1951,12 +1796,11 @@ val pencil_of_integral : integral -> pencil
 
 val complementarity : problem -> int list
 
-type solution_set = { solutions_in : yield list;
-                      families_of_set : family list;
+type solution_set = { solutions_in : yield list; families_of_set : family list;
                       open_regions : region list }
 
-type asserted = { asserted_from : point; asserted_to : point;
-                  asserted_support : int list; asserted_biactive : int list }
+type asserted = { asserted_from : point; asserted_to : point; asserted_support : int list;
+                  asserted_biactive : int list }
 
 type stated =
 | Apart
@@ -1987,11 +1831,9 @@ type equilibrium_evidence =
 | BoxAround of Big_int_Z.big_int list * matrix * Big_int_Z.big_int
 
 val dominated_row :
-  matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row
-  -> bool
+  matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row -> bool
 
-val check_rows :
-  int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool
+val check_rows : int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool
 
 val times_rational : rational0 -> rational0 -> rational0
 
@@ -2002,72 +1844,62 @@ val negated : rational_row -> rational_row
 val constant : rational_body -> rational0 -> rational_row
 
 val applied_row :
-  rational_body -> rational0 list -> (load -> rational_row) -> int ->
-  rational_row
+  rational_body -> rational0 list -> (load -> rational_row) -> int -> rational_row
 
 val displacement_row : int -> rational_row
 
-val reaction_row :
-  rational_body -> rational0 list -> int -> (int * rational0) list
+val reaction_row : rational_body -> rational0 list -> int -> (int * rational0) list
 
-val tangential_row :
-  given_particle -> (int -> rational_row) -> (int * rational0) list
+val tangential_row : given_particle -> (int -> rational_row) -> (int * rational0) list
 
 val normal_row : given_particle -> (int -> rational_row) -> rational_row
 
-val pressure_row :
-  rational_body -> rational0 list -> given_particle -> rational_row
+val pressure_row : rational_body -> rational0 list -> given_particle -> rational_row
 
-val bound_row :
-  rational_body -> rational0 -> rational0 list -> given_particle ->
-  rational_row
+val bound_row : rational_body -> rational0 -> rational0 list -> given_particle -> rational_row
 
 val equations_at :
-  rational_body -> rational0 list -> stated list -> int -> (int * rational0)
-  list list
+  rational_body -> rational0 list -> stated list -> int -> (int * rational0) list list
 
 val state_equations :
-  rational_body -> rational0 -> rational0 list -> candidate -> stated ->
-  (int * rational0) list list
+  rational_body -> rational0 -> rational0 list -> candidate -> stated -> (int * rational0) list
+  list
 
 val state_inequalities :
-  rational_body -> rational0 -> rational0 list -> candidate -> stated ->
-  (int * rational0) list list
+  rational_body -> rational0 -> rational0 list -> candidate -> stated -> (int * rational0) list
+  list
 
 val of_candidates :
-  rational_body -> stated list -> (candidate -> stated -> rational_row list)
-  -> rational_row list
+  rational_body -> stated list -> (candidate -> stated -> rational_row list) -> rational_row
+  list
 
 val equations :
-  rational_body -> rational0 -> rational0 list -> stated list ->
-  (int * rational0) list list
+  rational_body -> rational0 -> rational0 list -> stated list -> (int * rational0) list list
 
 val inequalities :
-  rational_body -> rational0 -> rational0 list -> stated list -> rational_row
-  list
+  rational_body -> rational0 -> rational0 list -> stated list -> rational_row list
 
 val positive_rational : rational0 -> bool
 
 val lawful : (candidate * stated) -> bool
 
-val well_stated :
-  rational_body -> rational0 -> rational0 list -> stated list -> bool
+val well_stated : rational_body -> rational0 -> rational0 list -> stated list -> bool
 
 val check_equilibrium :
-  rational_body -> rational0 -> rational0 list -> stated list ->
-  Big_int_Z.big_int -> equilibrium_evidence -> bool
+  rational_body -> rational0 -> rational0 list -> stated list -> Big_int_Z.big_int ->
+  equilibrium_evidence -> bool
 
 val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int
 
 val signed_end : enclosed -> bool -> point -> factor -> bool
 
 val check_rates :
-  system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
-  -> factor -> factor -> bool
+  system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> factor -> factor
+  -> bool
 
 val check_given_rates :
-  scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  point -> elimination -> factor -> factor -> bool
+  scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
+  -> factor -> factor -> bool
 
 type claim_evidence =
 | OfPencil of solution_claim
@@ -2080,8 +1912,7 @@ type cover_evidence =
 | CoverAtValue of solution_claim list * cover * support_leaf option list
 
 type absence_evidence =
-| ByElimination of (elimination * (matrix * matrix)) option
-   * critical_leaf tree
+| ByElimination of (elimination * (matrix * matrix)) option * critical_leaf tree
 | ByAnchors of box_anchoring * anchored_box_leaf tree
 
 type evidence =
@@ -2092,8 +1923,7 @@ type evidence =
 | Presence of point * point * box_anchoring * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
 | Points of mcp_point list
-| Equilibrium of rational0 * rational0 list * stated list
-   * equilibrium_evidence
+| Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
 
 type answered =
 | Proved of statement
@@ -2110,25 +1940,20 @@ val claim_answer : integral -> pencil -> claim_evidence -> asserted option
 val in_window : point -> point -> asserted -> bool
 
 val all_asserted :
-  integral -> pencil -> point -> point -> int -> claim_evidence list ->
-  (asserted list, int) sum
+  integral -> pencil -> point -> point -> int -> claim_evidence list -> (asserted list, int) sum
 
-val claims_answer :
-  integral -> pencil -> point -> point -> claim_evidence list -> answered
+val claims_answer : integral -> pencil -> point -> point -> claim_evidence list -> answered
 
-val answer_claims :
-  integral -> point -> point -> claim_evidence list -> answered
+val answer_claims : integral -> point -> point -> claim_evidence list -> answered
 
 val told : yield list option -> (yield list -> statement) -> answered
 
 val answer_cover : pencil -> point -> point -> cover_evidence -> answered
 
-val answer_zero_cover :
-  zero_system -> unknown -> point -> point -> cover_evidence -> answered
+val answer_zero_cover : zero_system -> unknown -> point -> point -> cover_evidence -> answered
 
 val answer_infinity :
-  pencil -> solution_claim list -> cover -> support_leaf option list ->
-  answered
+  pencil -> solution_claim list -> cover -> support_leaf option list -> answered
 
 val check_absence : zero_system -> point -> point -> absence_evidence -> bool
 
