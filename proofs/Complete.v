@@ -72,15 +72,18 @@ Definition check_solution_claim k :=
 
 Definition known_solutions := [seq known_of k | k <- claims].
 
-(* x is a null vector at infinity, on the moving set of r: A x = 0 in the free rows, B x = 0 in the
-   moving rows, x_k != 0, and x vanishes where r rests. *)
-Definition check_limit (r : region) (k : nat) (x : seq Z) :=
+(* On the moving set of r, x is a null vector of the pencil with these rows at free variables and
+   those of B at the others: x_k != 0, and x vanishes where r rests. *)
+Definition check_null (free_row : nat -> sparse_row) (r : region) (k : nat) (x : seq Z) :=
   let at_slip j := nth 0%Z x (nth 0%N (slip Q) j) in
-  [&& columns_in_order Q, negb (at_slip k =? 0)%Z, (k < size (slip Q))%N,
-      all (fun i => sparse_dot (row_a Q i) x =? 0)%Z (free Q) &
+  [&& columns_in_order Q, negb (at_slip k =? 0)%Z,
+      all (fun i => sparse_dot (free_row i) x =? 0)%Z (free Q) &
       all (fun j => if is_moving (state_of r j)
                     then (sparse_dot (row_b Q (nth 0%N (slip Q) j)) x =? 0)%Z
                     else (at_slip j =? 0)%Z) (iota 0 (size (slip Q)))].
+
+(* A null vector at infinity; the rows of A and B at free variables are those of A. *)
+Definition check_limit r k x := (k < size (slip Q))%N && check_null (row_a Q) r k x.
 
 Variables (w : elimination) (tr : tree (leaf whole)) (lo hi : point).
 
@@ -280,7 +283,7 @@ Qed.
 Lemma limit_sound r k x : check_limit Q r k x -> exists2 xs : nat -> R,
   xs k != 0 & forall l, l \in moving P r -> \sum_(j <- moving P r) B l j * xs j = 0.
 Proof.
-case/and5P=> cols xk lt_k /allP free0 /allP slip0; have [wf con pos shp _] := parts.
+case/andP=> lt_k /and4P[cols xk /allP free0 /allP slip0]; have [wf con pos shp _] := parts.
 pose X i : R := toR (nth 0%Z x i).
 have ca i := (columns_in_rows cols i).1; have cb i := (columns_in_rows cols i).2.
 

@@ -82,15 +82,6 @@ Definition expansions := [seq expand_anchor ra | ra <- anchors w].
 (* The value of a root is finite. *)
 Definition finite_root l := if l is LocalRoot c _ then (0 <? (to_point c).2)%Z else true.
 
-(* B x = 0 in the free rows and the moving rows, x_k != 0, and x vanishes where r rests. *)
-Definition check_direction (r : region) (k : nat) (x : seq Z) :=
-  let at_slip j := nth 0%Z x (nth 0%N (slip Q) j) in
-  [&& columns_in_order Q, negb (at_slip k =? 0)%Z,
-      all (fun i => sparse_dot (row_b Q i) x =? 0)%Z (free Q) &
-      all (fun j => if is_moving (state_of r j)
-                    then (sparse_dot (row_b Q (nth 0%N (slip Q) j)) x =? 0)%Z
-                    else (at_slip j =? 0)%Z) (iota 0 ns)].
-
 (* A check for the region, or for the region of s, with the bounds of both blocks. *)
 Definition at_anchor (families : seq (option anchor_family)) n (r : region)
     (check : bool -> anchor -> form_bound -> form_bound -> anchor_family -> region -> bool) :=
@@ -112,7 +103,7 @@ Definition claim_at grain c q (reverse : bool) a low_a low_b fam (r : region) :=
     (if reverse then swap_known q else q).
 
 Definition limit_at grain c x (reverse : bool) a low_a low_b fam (r : region) :=
-  [&& reverse, ((lower r).1 =? 0)%Z, check_direction r (pin_pivot c) x &
+  [&& reverse, ((lower r).1 =? 0)%Z, check_null Q (row_b Q) r (pin_pivot c) x &
       check_anchored_limit ns a low_a low_b fam (lower r) (upper r) r grain c].
 
 Definition check_varying_leaf (families : seq (option anchor_family)) (solutions : seq known)

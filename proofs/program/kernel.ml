@@ -2213,22 +2213,27 @@ let check_solution_claim q = function
 let known_solutions q claims =
   map0 (fun k -> known_of q k) claims
 
-(** val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+(** val check_null :
+    pencil -> (int -> sparse_row) -> region -> int -> Big_int_Z.big_int list -> bool **)
 
-let check_limit q r k x =
+let check_null q free_row r k x =
   let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
   (&&) (columns_in_order q)
     ((&&) (negb (Big_int_Z.eq_big_int (at_slip k) Big_int_Z.zero_big_int))
-      ((&&) (leq (Natural.succ k) (size (slip q)))
-        ((&&)
-          (all (fun i ->
-            Big_int_Z.eq_big_int (sparse_dot (row_a q i) x) Big_int_Z.zero_big_int) q.free)
-          (all (fun j ->
-            if is_moving (state_of r j)
-            then Big_int_Z.eq_big_int (sparse_dot (row_b q (nth 0 (slip q) j)) x)
-                   Big_int_Z.zero_big_int
-            else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
-            (iota 0 (size (slip q)))))))
+      ((&&)
+        (all (fun i -> Big_int_Z.eq_big_int (sparse_dot (free_row i) x) Big_int_Z.zero_big_int)
+          q.free)
+        (all (fun j ->
+          if is_moving (state_of r j)
+          then Big_int_Z.eq_big_int (sparse_dot (row_b q (nth 0 (slip q) j)) x)
+                 Big_int_Z.zero_big_int
+          else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
+          (iota 0 (size (slip q))))))
+
+(** val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
+
+let check_limit q r k x =
+  (&&) (leq (Natural.succ k) (size (slip q))) (check_null q (row_a q) r k x)
 
 (** val check_blocks :
     pencil -> solution_claim list -> elimination -> whole leaf tree -> point -> point -> blocks
@@ -4017,22 +4022,6 @@ let finite_root = function
 | LocalRoot (c, _) -> Z.ltb Big_int_Z.zero_big_int (snd c.to_point)
 | _ -> true
 
-(** val check_direction : pencil -> region -> int -> Big_int_Z.big_int list -> bool **)
-
-let check_direction q r k x =
-  let at_slip = fun j -> nth Big_int_Z.zero_big_int x (nth 0 (slip q) j) in
-  (&&) (columns_in_order q)
-    ((&&) (negb (Big_int_Z.eq_big_int (at_slip k) Big_int_Z.zero_big_int))
-      ((&&)
-        (all (fun i -> Big_int_Z.eq_big_int (sparse_dot (row_b q i) x) Big_int_Z.zero_big_int)
-          q.free)
-        (all (fun j ->
-          if is_moving (state_of r j)
-          then Big_int_Z.eq_big_int (sparse_dot (row_b q (nth 0 (slip q) j)) x)
-                 Big_int_Z.zero_big_int
-          else Big_int_Z.eq_big_int (at_slip j) Big_int_Z.zero_big_int)
-          (iota 0 (size (slip q))))))
-
 (** val at_anchor :
     anchoring -> anchor_family option list -> int -> region -> (bool -> anchor -> form_bound ->
     form_bound -> anchor_family -> region -> bool) -> bool **)
@@ -4072,7 +4061,7 @@ let claim_at q grain c q0 reverse a low_a low_b fam r =
 let limit_at q grain c x reverse a low_a low_b fam r =
   (&&) reverse
     ((&&) (Big_int_Z.eq_big_int (fst r.lower) Big_int_Z.zero_big_int)
-      ((&&) (check_direction q r c.pin_pivot x)
+      ((&&) (check_null q (row_b q) r c.pin_pivot x)
         (check_anchored_limit (size (slip q)) a low_a low_b fam r.lower r.upper r grain c)))
 
 (** val check_varying_leaf :

@@ -813,6 +813,9 @@ val check_solution_claim : pencil -> solution_claim -> bool
 
 val known_solutions : pencil -> solution_claim list -> known list
 
+val check_null :
+  pencil -> (int -> sparse_row) -> region -> int -> Big_int_Z.big_int list -> bool
+
 val check_limit : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val check_blocks :
@@ -1372,8 +1375,6 @@ val no_anchor : bool * anchor
 val expansions : pencil -> anchoring -> anchor_family option list
 
 val finite_root : local_leaf -> bool
-
-val check_direction : pencil -> region -> int -> Big_int_Z.big_int list -> bool
 
 val at_anchor :
   anchoring -> anchor_family option list -> int -> region -> (bool -> anchor -> form_bound ->
