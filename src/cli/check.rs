@@ -11,8 +11,8 @@ pub(super) mod plain;
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
 use super::path::read_loads_of;
-use crate::say;
 use crate::say::path::LETTERS;
+use crate::say::{self, mu_text};
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
     EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,
@@ -162,7 +162,7 @@ fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String
         states,
     } = accepted;
     let letters: String = states.iter().map(|state| state.letter()).collect();
-    let amounts: Vec<String> = amounts.iter().map(ToString::to_string).collect();
+    let amounts: Vec<String> = amounts.iter().map(mu_text).collect();
 
     let mut digests = format!("loads {}", body.sha256());
     for unknown in [Unknown::Mu, Unknown::Lambda2] {
@@ -173,9 +173,10 @@ fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String
     }
 
     format!(
-        "EQUILIBRIUM: under the loads times {}, with friction {friction}, there is one in the \
-         contact states {letters} ({LETTERS}; {digests})\n",
-        amounts.join(", ")
+        "EQUILIBRIUM: under the loads times {}, with friction {}, there is one in the contact \
+         states {letters} ({LETTERS}; {digests})\n",
+        amounts.join(", "),
+        mu_text(friction)
     )
 }
 

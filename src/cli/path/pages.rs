@@ -17,6 +17,7 @@ use crate::picture::{
     Section, Threshold, ThresholdColumn, body_picture, branch_picture, path_picture,
     threshold_picture,
 };
+use crate::say::counted;
 use crate::say::path::{
     LETTERS, amount_text, causes_text, continuations_text, loose_text, of_which_body,
 };
@@ -401,8 +402,9 @@ impl Shown<'_> {
 
         Section {
             title: format!(
-                "State of stretch {}: {} slip nodes",
-                state.stretch, state.slip
+                "State of stretch {}: {} in impending slip",
+                state.stretch,
+                counted(state.slip, "node")
             ),
             content,
         }
