@@ -175,7 +175,7 @@ pub struct FrictionPoint {
     /// once, up to the first that can. States in which nothing slips cannot; that in which the path
     /// ends is here all the same.
     pub examined: Vec<ExaminedEquilibrium>,
-    /// Are the contact states of the last of them proved? `None` where there is none.
+    /// Are the contact states of that which decides proved? `None` where there is none.
     pub states: Option<ProvedStates>,
 }
 
@@ -188,7 +188,9 @@ pub struct ExaminedEquilibrium {
     pub equilibrium: Equilibrium,
     /// Can it diverge in the form (8)?
     pub divergence: Divergence,
-    /// The certificate of that; `None` where a theorem answers.
+    /// The certificate of that; `None` where a theorem answers. Of an equilibrium that does not
+    /// decide it is heard ([`FindOwnCritical::on_point`]) and not kept: those of a large body fill
+    /// the memory.
     pub proof: Option<Proof>,
 }
 
@@ -278,9 +280,9 @@ impl FrictionPoint {
     }
 
     /// The equilibrium that decides: the first that can diverge, with which the search along the
-    /// path ends, else the last on the path.
+    /// path ends; else the first that is undecided; else the last on the path.
     pub fn deciding(&self) -> Option<&ExaminedEquilibrium> {
-        self.examined.last()
+        self.examined.get(deciding(&self.examined)?)
     }
 
     /// Is it one that diverges?
@@ -582,16 +584,24 @@ impl<'a> FindOwnCritical<'a> {
         }
 
         let body = self.load_path.loads().body();
-        let states = examined.last().map(|last| {
-            let stretch = last.place.stretch(&path);
-            certify_states(body, &path, stretch, &last.equilibrium)
+        let decides = deciding(&examined);
+        let states = decides.map(|decides| {
+            let ExaminedEquilibrium {
+                place, equilibrium, ..
+            } = &examined[decides];
+            certify_states(body, &path, place.stretch(&path), equilibrium)
         });
-        let point = FrictionPoint {
+        let mut point = FrictionPoint {
             path,
             examined,
             states,
         };
         (self.on_point)(&point);
+        for (k, examined) in point.examined.iter_mut().enumerate() {
+            if Some(k) != decides {
+                examined.proof = None;
+            }
+        }
         Ok(Some(point))
     }
 
@@ -638,6 +648,18 @@ impl<'a> FindOwnCritical<'a> {
 
         Ok(analyse(None, &system, mu, &options, &watch.quiet())?)
     }
+}
+
+/// Which of the equilibria decides; see [`FrictionPoint::deciding`].
+fn deciding(examined: &[ExaminedEquilibrium]) -> Option<usize> {
+    let first = |verdict| {
+        let mut verdicts = examined.iter().map(|e| e.divergence.verdict);
+        verdicts.position(|found| found == verdict)
+    };
+    let last = examined.len().checked_sub(1);
+    first(Verdict::Present)
+        .or(first(Verdict::Undecided))
+        .or(last)
 }
 
 fn place_word(place: PathPlace) -> String {

@@ -62,7 +62,8 @@ pub(super) fn keep_point(folder: &Folder, point: &FrictionPoint) {
     let equilibrium = |name: &str| format!("{name}.equilibrium.json");
     let mut inside = Vec::new();
     let mut has_end = false;
-    for (k, examined) in point.examined.iter().enumerate() {
+    let deciding = point.deciding().map(|examined| examined.place);
+    for examined in &point.examined {
         let name = name_of(mu, examined.place);
         match examined.place {
             PathPlace::Inside(stretch) => inside.push(stretch),
@@ -73,9 +74,8 @@ pub(super) fn keep_point(folder: &Folder, point: &FrictionPoint) {
             None => folder.remove_proof(&name), // a theorem: nothing slips
         }
 
-        let is_deciding = k + 1 == point.examined.len();
         match &point.states {
-            Some(Ok(states)) if is_deciding => {
+            Some(Ok(states)) if deciding == Some(examined.place) => {
                 if let Some(text) = folder.made(states.file()) {
                     folder.keep(&equilibrium(&name), &text);
                 }
