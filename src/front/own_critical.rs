@@ -21,7 +21,8 @@ use super::run::{Watched, watched_question};
 use crate::say::{self, mu_text};
 use mceip_check::certificate::Certificate;
 use mceip_engine::analysis::{
-    Analysis, AnalysisError, AnalysisOptions, Divergence, Proof, Verdict, analyse, divergence_at,
+    Analysis, AnalysisError, AnalysisOptions, Divergence, Mode, Proof, Verdict, analyse,
+    divergence_at,
 };
 use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
@@ -186,12 +187,26 @@ pub struct ExaminedEquilibrium {
     pub place: PathPlace,
     /// The equilibrium.
     pub equilibrium: Equilibrium,
-    /// Can it diverge in the form (8)?
-    pub divergence: Divergence,
+    /// Can it diverge in the form (8)? An error for contact states that are refused.
+    pub divergence: Result<Divergence, AnalysisError>,
     /// The certificate of that; `None` where a theorem answers. Of an equilibrium that does not
     /// decide it is heard ([`FindOwnCritical::on_point`]) and not kept: those of a large body fill
     /// the memory.
     pub proof: Option<Proof>,
+}
+
+impl ExaminedEquilibrium {
+    /// Whether it diverges; undecided where its states are refused.
+    pub fn verdict(&self) -> Verdict {
+        let divergence = self.divergence.as_ref();
+        divergence.map_or(Verdict::Undecided, |divergence| divergence.verdict)
+    }
+
+    /// Every motion that is proved to grow, by ascending lambda^2.
+    pub fn modes(&self) -> &[Mode] {
+        let divergence = self.divergence.as_ref();
+        divergence.map_or(&[], |divergence| &divergence.modes)
+    }
 }
 
 /// A place on a path.
@@ -288,7 +303,7 @@ impl FrictionPoint {
     /// Is it one that diverges?
     pub fn deciding_diverges(&self) -> bool {
         let deciding = self.deciding();
-        deciding.is_some_and(|e| e.divergence.verdict == Verdict::Present)
+        deciding.is_some_and(|e| e.verdict() == Verdict::Present)
     }
 
     /// What is found at it.
@@ -307,7 +322,7 @@ impl FrictionPoint {
 
     /// Undecided if one of the equilibria is.
     fn worst(&self) -> Verdict {
-        let mut verdicts = self.examined.iter().map(|e| e.divergence.verdict);
+        let mut verdicts = self.examined.iter().map(ExaminedEquilibrium::verdict);
         let is_proved = !self.examined.is_empty() && verdicts.all(|v| v == Verdict::Absent);
         if is_proved {
             Verdict::Absent
@@ -432,7 +447,7 @@ impl LoadPath {
     /// use mceip::{Bracket, FrictionGrid, Loads};
     /// let loads = Loads::read("spec/examples/own-critical.json")?;
     /// let path = loads.path().run()?.expect("nobody has cancelled it");
-    /// let grid = FrictionGrid::new("1.7".parse()?, "1.8".parse()?)?;
+    /// let grid = FrictionGrid::new("1.1".parse()?, "1.2".parse()?)?;
     /// let own = path.own_critical(grid).run()?;
     /// assert!(matches!(own.bracket(), Bracket::Between(..)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -509,7 +524,7 @@ impl<'a> FindOwnCritical<'a> {
             frozen: None,
         };
         if let Some(point) = own.to_be_held()
-            && let Some(examined) = point.deciding()
+            && let Some(examined) = point.deciding().filter(|e| e.divergence.is_ok())
             && !watch.is_cancelled()
         {
             let frozen = self.frozen(&examined.equilibrium, point.friction(), &watch)?;
@@ -564,21 +579,21 @@ impl<'a> FindOwnCritical<'a> {
                 Some(same) => (same.divergence.clone(), same.proof.clone()),
                 None => {
                     say(&format!("{stage}, divergence {}", place_word(place)));
-                    self.divergence(equilibrium, &mu, place, watch)?
+                    self.divergence(equilibrium, &mu, place, watch)
                 }
             };
             if watch.is_cancelled() {
                 return Ok(None);
             }
 
-            let is_present = divergence.verdict == Verdict::Present;
             examined.push(ExaminedEquilibrium {
                 place,
                 equilibrium: equilibrium.clone(),
                 divergence,
                 proof,
             });
-            if is_present {
+            let last = examined.last();
+            if last.is_some_and(|last| last.verdict() == Verdict::Present) {
                 break;
             }
         }
@@ -605,25 +620,25 @@ impl<'a> FindOwnCritical<'a> {
         Ok(Some(point))
     }
 
-    /// Can the body diverge in the contact states of an equilibrium? With the certificate.
+    /// Can the body diverge in the contact states of an equilibrium? With the certificate. States
+    /// that are refused take no others along.
     fn divergence(
         &self,
         equilibrium: &Equilibrium,
         mu: &Rational,
         place: PathPlace,
         watch: &Watch<'_>,
-    ) -> Result<(Divergence, Option<Proof>), Error> {
-        let system = self.state(equilibrium, mu)?;
+    ) -> (Result<Divergence, AnalysisError>, Option<Proof>) {
         let options = AnalysisOptions::default();
         let earlier = (self.earlier)(mu, place);
-        let earlier = earlier.as_ref();
-        Ok(divergence_at(
-            &system,
-            mu,
-            earlier,
-            &options,
-            &watch.quiet(),
-        )?)
+        let system = self.state(equilibrium, mu).map_err(AnalysisError::from);
+        let decided = system.and_then(|system| {
+            divergence_at(&system, mu, earlier.as_ref(), &options, &watch.quiet())
+        });
+        match decided {
+            Ok((divergence, proof)) => (Ok(divergence), proof),
+            Err(why) => (Err(why), None),
+        }
     }
 
     /// The body in the contact states of an equilibrium.
@@ -653,7 +668,7 @@ impl<'a> FindOwnCritical<'a> {
 /// Which of the equilibria decides; see [`FrictionPoint::deciding`].
 fn deciding(examined: &[ExaminedEquilibrium]) -> Option<usize> {
     let first = |verdict| {
-        let mut verdicts = examined.iter().map(|e| e.divergence.verdict);
+        let mut verdicts = examined.iter().map(ExaminedEquilibrium::verdict);
         verdicts.position(|found| found == verdict)
     };
     let last = examined.len().checked_sub(1);

@@ -12,7 +12,7 @@ use super::loads::LoadPath;
 use super::own_critical::require_mass;
 use super::run::{Watched, watched_question};
 use crate::say;
-use mceip_engine::analysis::{Analysis, AnalysisOptions, Verdict, analyse};
+use mceip_engine::analysis::{Analysis, AnalysisError, AnalysisOptions, Mode, Verdict, analyse};
 use mceip_engine::run::Progress;
 use serde_json::Value;
 
@@ -31,8 +31,22 @@ pub struct StateAnalysis {
     pub stretch: usize,
     /// An earlier stretch in the same states: the analysis is that of it.
     pub same_as: Option<usize>,
-    /// The analysis, its contact states held.
-    pub analysis: Analysis,
+    /// The analysis, its contact states held; an error for states that are refused.
+    pub analysis: Result<Analysis, AnalysisError>,
+}
+
+impl StateAnalysis {
+    /// Whether it diverges at the friction of the path; undecided where its states are refused.
+    pub fn verdict(&self) -> Verdict {
+        let analysis = self.analysis.as_ref();
+        analysis.map_or(Verdict::Undecided, |analysis| analysis.divergence.verdict)
+    }
+
+    /// Every motion that is proved to grow, by ascending lambda^2.
+    pub fn modes(&self) -> &[Mode] {
+        let analysis = self.analysis.as_ref();
+        analysis.map_or(&[], |analysis| &analysis.divergence.modes)
+    }
 }
 
 impl PathAnalysis {
@@ -48,10 +62,7 @@ impl PathAnalysis {
 
     /// Is it not known of a state whether it diverges?
     pub fn is_undecided(&self) -> bool {
-        let mut verdicts = self
-            .states
-            .iter()
-            .map(|state| state.analysis.divergence.verdict);
+        let mut verdicts = self.states.iter().map(StateAnalysis::verdict);
         verdicts.any(|verdict| verdict == Verdict::Undecided)
     }
 
@@ -82,7 +93,7 @@ impl LoadPath {
     /// let loads = Loads::read("spec/examples/own-critical.json")?;
     /// let path = loads.path().friction("1.12".parse()?).run()?.expect("nobody has cancelled it");
     /// let states = path.analyze().run()?.states;
-    /// assert_eq!(states[3].analysis.divergence.verdict, Verdict::Present);
+    /// assert_eq!(states[3].verdict(), Verdict::Present);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn analyze(&self) -> AnalyzePath<'_> {
@@ -99,7 +110,7 @@ impl AnalyzePath<'_> {
     /// Analyses, stretch by stretch.
     ///
     /// # Errors
-    /// [`Error::Analyze`] for a body without mass, [`Error::Model`].
+    /// [`Error::Analyze`] for a body without mass.
     pub fn run(self) -> Result<PathAnalysis, Error> {
         let body = self.path.loads().body();
         require_mass(body)?;
@@ -123,8 +134,11 @@ impl AnalyzePath<'_> {
             let (same_as, analysis) = match same {
                 Some(same) => (Some(same.stretch), same.analysis.clone()),
                 None => {
-                    let system = body.system().with_states(held, Some(mu.clone()))?;
-                    (None, analyse(None, &system, mu, &options, &watch.quiet())?)
+                    let system = body.system().with_states(held, Some(mu.clone()));
+                    let system = system.map_err(AnalysisError::from);
+                    let analysis = system
+                        .and_then(|system| analyse(None, &system, mu, &options, &watch.quiet()));
+                    (None, analysis)
                 }
             };
             if watch.is_cancelled() {

@@ -38,13 +38,31 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
          to the first that can diverge, and the one at the end of the loads (of a load without \
          end: inside the last stretch). The columns are about the one that decides."
     };
+    let refused = refused_text(own);
     format!(
-        "{out}\n{warnings}\n{LETTERS}\n{table}\n\
+        "{out}\n{warnings}\n{LETTERS}\n{table}\n{refused}\
          {examined} The path is exact, but has no certificate, and may be one of several. \
          \"Proved\" rests on a certificate or a theorem: that under these loads there is an \
          equilibrium in these contact states, and whether states can diverge. Other mu are not \
          examined.{rounded}\n"
     )
+}
+
+/// The states that were refused, and why.
+fn refused_text(own: &OwnCritical) -> String {
+    let mut out = String::new();
+    for point in &own.points {
+        for examined in &point.examined {
+            if let Err(why) = &examined.divergence {
+                let mu = mu_text(point.friction());
+                let place = place_text(examined.place);
+                let states = examined.equilibrium.picture();
+                out += &format!("NOT DECIDED at mu = {mu}, {place}, states {states}: {why}\n");
+            }
+        }
+    }
+
+    out
 }
 
 /// The columns of the table of what was examined.
@@ -143,9 +161,16 @@ fn where_text(place: PathPlace, path: &LoadingPath, names: &[&str]) -> String {
     }
 }
 
+fn place_text(place: PathPlace) -> String {
+    match place {
+        PathPlace::Inside(stretch) => format!("stretch {stretch}"),
+        PathPlace::End => "end".into(),
+    }
+}
+
 /// The largest growth rate that is proved.
 fn rate_of(examined: &ExaminedEquilibrium) -> Option<String> {
-    let last = examined.divergence.modes.last();
+    let last = examined.modes().last();
     last.map(|mode| six_digits(mode.growth_rate))
 }
 
@@ -237,10 +262,7 @@ fn cells(point: &FrictionPoint, names: &[&str]) -> Vec<String> {
         FrictionAnswer::Equilibrium(Verdict::Present) => "present, proved",
         _ => "undecided",
     };
-    let place = match examined.place {
-        PathPlace::Inside(stretch) => format!("stretch {stretch}"),
-        PathPlace::End => "end".into(),
-    };
+    let place = place_text(examined.place);
     let states = match &point.states {
         Some(Ok(_)) => "proved",
         Some(Err(_)) | None => "not certified",
@@ -321,7 +343,7 @@ fn point_json(point: &FrictionPoint, names: &[&str], candidates: &[Particle]) ->
 
 /// The equilibrium that decides, with what is known of the whole path.
 fn examined_json(examined: &ExaminedEquilibrium, verdict: Verdict, point: &FrictionPoint) -> Value {
-    let modes = examined.divergence.modes.iter();
+    let modes = examined.modes().iter();
     let lambda2 = modes.map(|mode| {
         let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
         [lo, hi]
@@ -336,7 +358,8 @@ fn examined_json(examined: &ExaminedEquilibrium, verdict: Verdict, point: &Frict
         "states": states_json(examined.equilibrium.contact_states()),
         "states_certified": matches!(point.states, Some(Ok(_))),
         "divergence": verdict.word(),
-        "families": examined.divergence.families,
+        "families": examined.divergence.as_ref().map_or(0, |divergence| divergence.families),
+        "refused": examined.divergence.as_ref().err().map(ToString::to_string),
         "lambda2": lambda2.collect::<Vec<_>>(),
     })
 }

@@ -46,13 +46,16 @@ pub(crate) fn rows_of(found: &PathAnalysis) -> Vec<Vec<String>> {
     let path = found.path().as_path();
     let mut rows = Vec::with_capacity(found.states.len());
     for state in &found.states {
-        let verdict = match state.analysis.divergence.verdict {
+        let verdict = match state.verdict() {
             Verdict::Undecided => "undecided".into(),
             decided => format!("{}, proved", decided.word()),
         };
         let held = match state.same_as {
             Some(earlier) => format!("as in stretch {earlier}"),
-            None => bracket_text(&state.analysis),
+            None => match &state.analysis {
+                Ok(analysis) => bracket_text(analysis),
+                Err(why) => format!("NOT DECIDED: {why}"),
+            },
         };
         rows.push(vec![
             state.stretch.to_string(),
@@ -68,7 +71,7 @@ pub(crate) fn rows_of(found: &PathAnalysis) -> Vec<Vec<String>> {
 
 /// The largest growth rate that is proved.
 fn rate_of(state: &StateAnalysis) -> Option<f64> {
-    let last = state.analysis.divergence.modes.last();
+    let last = state.modes().last();
     last.map(|mode| mode.growth_rate)
 }
 
@@ -78,7 +81,7 @@ pub(crate) fn verdict_text(found: &PathAnalysis) -> String {
     let mu = mu_text(&path.steps.friction);
     let with = |verdict| {
         let states = found.states.iter();
-        states.filter(move |state| state.analysis.divergence.verdict == verdict)
+        states.filter(move |state| state.verdict() == verdict)
     };
 
     if let Some(first) = with(Verdict::Present).next() {
@@ -111,7 +114,8 @@ pub(crate) fn verdict_text(found: &PathAnalysis) -> String {
 /// The lowest critical friction of a state on the path.
 fn lowest_text(found: &PathAnalysis) -> String {
     let bounds = found.states.iter().filter_map(|state| {
-        let solution = state.analysis.critical.solution.as_ref()?;
+        let analysis = state.analysis.as_ref().ok()?;
+        let solution = analysis.critical.solution.as_ref()?;
         Some((solution.mu.hi(), state.stretch))
     });
     match bounds.min() {
@@ -135,16 +139,21 @@ const DIGITS: usize = 6;
 /// For programs.
 pub(crate) fn json_of(found: &PathAnalysis) -> Value {
     let states = found.states.iter().map(|state| {
-        let modes = state.analysis.divergence.modes.iter();
+        let modes = state.modes().iter();
         let lambda2 = modes.map(|mode| {
             let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
             [lo, hi]
         });
         let lambda2: Vec<_> = lambda2.collect();
-        let mut out = held_json(&state.analysis);
+        let mut out = match &state.analysis {
+            Ok(analysis) => held_json(analysis),
+            Err(why) => {
+                json!({ "absent_below": null, "present_at": null, "refused": why.to_string() })
+            }
+        };
         out["stretch"] = json!(state.stretch);
         out["same_as"] = json!(state.same_as);
-        out["divergence"] = json!(state.analysis.divergence.verdict.word());
+        out["divergence"] = json!(state.verdict().word());
         out["lambda2"] = json!(lambda2);
         out
     });

@@ -202,7 +202,7 @@ fn drawn(answer: FrictionAnswer) -> Presence {
 fn growth(own: &OwnCritical) -> Option<Named> {
     let mut certified = Vec::new();
     for point in &own.points {
-        let modes = point.examined.iter().flat_map(|e| &e.divergence.modes);
+        let modes = point.examined.iter().flat_map(|e| e.modes());
         certified.extend(modes.map(|mode| ChartPoint {
             mu: to_f64(point.friction()),
             lambda2: to_f64(&mode.lambda2.mid()),
