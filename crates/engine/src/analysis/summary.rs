@@ -138,11 +138,17 @@ impl Analysis {
             None => format!("a value {ends}"),
         };
 
+        let absent = if below.is_zero() {
+            "No bound below which there is no such motion is proved; growth".into()
+        } else {
+            format!(
+                "There is no such motion below mu = {}, and growth",
+                down(below)
+            )
+        };
         format!(
-            "There is no such motion below mu = {}, and growth is unbounded as mu {} {place}, \
-             where the mass matrix M* loses its property (Painleve), its solution there taken to \
-             be regular{}.",
-            down(below),
+            "{absent} is unbounded as mu {} {place}, where the mass matrix M* loses its property \
+             (Painleve), its solution there taken to be regular{}.",
             unbounded.verb(),
             self.gap_text()
         )
