@@ -28,8 +28,8 @@ pub(super) struct Args {
     /// does from time to time while the search goes on.
     #[arg(long, value_name = "OUT")]
     certificate: Option<PathBuf>,
-    /// Seconds between two writes of the certificate while the search goes on, at least: a tenth of
-    /// the time is spent on checking what is written.
+    /// Seconds between two writes of the certificate while the search goes on; twice as long as it
+    /// takes to check what is written, where that is more.
     #[arg(
         long,
         value_name = "SECONDS",

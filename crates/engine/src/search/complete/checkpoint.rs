@@ -25,8 +25,9 @@ use std::time::{Duration, Instant};
 /// last copy in the certificate.
 const TIME_TO_ANSWER: Duration = Duration::from_secs(1);
 
-/// Times as long as a certificate takes to be checked that the search goes on without another.
-const RARELY: u32 = 10;
+/// Times as long as a certificate takes to be checked that the search goes on without another: a
+/// kill loses twice that time, where it is more than the time between two certificates.
+const RARELY: u32 = 1;
 
 /// The beginning of a tree that replaces that of a piece.
 struct Beginning {
