@@ -20,9 +20,11 @@ M = skfem.BilinearForm(lambda u, v, w: 2.5e-9 * dot(u, v)).assemble(basis)
 K, M = ((A + A.T) / 2 for A in (K, M))  # symmetric to the last bit
 lower, plate = (basis.nodal_dofs[:, np.flatnonzero(mesh.p[1] == y)] for y in (0, 10))
 
-# 1-3. Whatever may touch the disc; normals of the mesh point away from it.
+# 1-3. Whatever may touch the disc; normals of the mesh point away from it. With the mesh, wrong
+# directions are warned of.
 contacts = [mceip.Candidate(int(t), int(n), normal_direction=-1) for t, n in lower.T]
-pad = mceip.Body(K, M, candidates=contacts)
+nodes = mceip.Mesh(mesh.p.T, basis.nodal_dofs.T, mesh.t.T)
+pad = mceip.Body(K, M, candidates=contacts, mesh=nodes)
 
 # 4-6. The plate is pressed down, then moved.
 press = mceip.Step("press", displacements={int(d): "-0.05" for d in plate[1]})

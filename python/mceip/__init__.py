@@ -52,6 +52,7 @@ from .loading import (
     Step,
     Stretch,
 )
+from .mesh import Mesh
 from .problem import ModelWarning, Problem, check
 from .progress import Listener
 
@@ -76,6 +77,7 @@ __all__ = [
     "Listener",
     "LoadPath",
     "MceipError",
+    "Mesh",
     "Mode",
     "ModelWarning",
     "NotCertifiedError",

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from .inputs import Contact, Triplets
 from .loading import PlainStep
+from .mesh import PlainMesh
 from .progress import Listener
 
 __version__: str
@@ -77,6 +78,7 @@ class NativeLoads:
         held: Sequence[int],
         steps: Sequence[PlainStep],
         friction: str,
+        mesh: PlainMesh | None,
         accept_warnings: bool,
     ) -> NativeLoads: ...
     def warnings(self) -> list[str]: ...

@@ -19,6 +19,7 @@ from ._native import MceipError, NativeLoadPath, NativeLoads
 from .answers import Analysis, counted, indices, two_lines
 from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text
 from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, triplets
+from .mesh import Mesh
 from .problem import Problem, text_of, warn_of
 from .progress import Progress, listening
 
@@ -78,6 +79,8 @@ class Body:
         mass: M, of the same kind; without it there are no growth rates.
         candidates: what may come into contact.
         held: degrees of freedom that do not move.
+        mesh: where the nodes are: then the directions of the candidates are held against it, and
+            wrong ones are said as `ModelWarning`.
     """
 
     def __init__(
@@ -87,6 +90,7 @@ class Body:
         *,
         candidates: Sequence[Candidate],
         held: Sequence[int] = (),
+        mesh: Mesh | None = None,
     ) -> None:
         self._dofs, self._stiffness = triplets("stiffness", stiffness)
         self._mass: Triplets | None = None
@@ -95,6 +99,7 @@ class Body:
         self._candidates = [contact_of(k, candidate) for k, candidate in enumerate(candidates)]
         self._gaps = [spelt(candidate.gap) for candidate in candidates]
         self._held = [count("held", dof) for dof in held]
+        self._mesh = None if mesh is None else mesh._plain()
 
     def path(
         self,
@@ -129,6 +134,7 @@ class Body:
             self._held,
             [plain_step(k, step, self._dofs) for k, step in enumerate(steps)],
             spelt(friction, "friction"),
+            self._mesh,
             accept_warnings,
         )
         warn_of(loads.warnings())

@@ -15,7 +15,7 @@ use contact::Contacts;
 use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
 use mceip_check::certificate::{CriticalCertificate, PresenceCertificate};
 use mceip_check::{check_critical, check_presence};
-use mceip_model::{Body, System};
+use mceip_model::{Body, Coordinates, System};
 use mceip_paper::{ContactTable, Plausibility, PlausibilityInput};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -84,7 +84,7 @@ impl NativeProblem {
             let Body::System(system) = problem.as_model().body() else {
                 return Ok(problem);
             };
-            let warnings = warnings(system, &table, None);
+            let warnings = warnings(system, &table, None, None);
             Ok(problem.with_warnings(warnings))
         }))
     }
@@ -303,12 +303,13 @@ pub(crate) fn warnings(
     system: &System,
     table: &ContactTable,
     dof_names: Option<&HashMap<String, usize>>,
+    coordinates: Option<&Coordinates>,
 ) -> Vec<String> {
     let plausibility = Plausibility::new(&PlausibilityInput {
         system,
         reactions: &table.reactions,
         displacements: None,
-        coordinates: None,
+        coordinates,
         dof_names,
     });
     plausibility.warnings

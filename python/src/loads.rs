@@ -8,8 +8,11 @@ use mceip::{Error, FrictionGrid, FrictionGridError, LoadPath, Loads, Rational};
 use mceip_check::certificate::EquilibriumCertificate;
 use mceip_check::check_equilibrium;
 use mceip_model::file::LoadsFile;
-use mceip_model::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
+use mceip_model::{BodyNode, ContactCandidate, Coordinates, LoadStep, LoadedBody, LoadedParts};
 use pyo3::prelude::*;
+
+/// Places of nodes as text, their degrees of freedom along x and y, and edges between them.
+type Mesh = (Vec<[String; 2]>, Vec<[Option<usize>; 2]>, Vec<[usize; 2]>);
 
 /// Values at degrees of freedom, as text.
 type Values = Vec<(usize, String)>;
@@ -44,6 +47,7 @@ impl NativeLoads {
         held: Vec<usize>,
         steps: Vec<Step>,
         friction: &str,
+        mesh: Option<Mesh>,
         accept_warnings: bool,
     ) -> PyResult<NativeLoads> {
         let mass = mass.map(|mass| matrix(dofs, mass)).transpose()?;
@@ -65,20 +69,23 @@ impl NativeLoads {
         });
         let body = body.map_err(|e| refused(e.into()))?;
 
+        let coordinates = mesh.map(|mesh| coordinates(mesh, &body)).transpose()?;
+
         // The degrees of freedom have the numbers of the given matrices, held ones included.
         let places = body.places().iter().enumerate();
         let places = places.filter_map(|(given, place)| Some((given.to_string(), (*place)?)));
         let warnings = if accept_warnings {
             Vec::new()
         } else {
-            warnings(body.system(), &table, Some(&places.collect()))
+            let names = places.collect();
+            warnings(body.system(), &table, Some(&names), coordinates.as_ref())
         };
         Ok(NativeLoads(Loads::from(LoadsFile {
             name: None,
             comment: None,
             warnings,
             body,
-            coordinates: None,
+            coordinates,
         })))
     }
 
@@ -100,6 +107,29 @@ impl NativeLoads {
         })?;
         Ok(path.map_err(refused)?.map(NativeLoadPath))
     }
+}
+
+/// The nodes with the degrees of freedom of the body, without those that are held.
+fn coordinates((points, dofs, edges): Mesh, body: &LoadedBody) -> PyResult<Coordinates> {
+    let places = body.places();
+    let moved = |dof: Option<usize>| match dof {
+        None => Ok(None),
+        Some(dof) => places.get(dof).copied().ok_or_else(|| {
+            let dofs = places.len();
+            MceipError::new_err(format!(
+                "mesh: expected degrees of freedom below {dofs}, got {dof}"
+            ))
+        }),
+    };
+
+    let mut nodes = Vec::with_capacity(points.len());
+    for ([x, y], [along_x, along_y]) in points.into_iter().zip(dofs) {
+        nodes.push(BodyNode {
+            dofs: [moved(along_x)?, moved(along_y)?],
+            place: [number("mesh", &x)?, number("mesh", &y)?],
+        });
+    }
+    Coordinates::new(nodes, edges, body.system()).map_err(|e| refused(e.into()))
 }
 
 fn step(step: Step) -> PyResult<LoadStep> {

@@ -156,6 +156,57 @@ def test_the_own_critical_friction_is_that_of_the_book():
             path.own_critical(*ends, **options)
 
 
+def square(**wrong):
+    """Two points on the floor, two above them that are held; candidates with a fault."""
+    stiffness = np.diag([4.0, 4.0, 4.0, 4.0, 1.0, 1.0, 1.0, 1.0])
+    stiffness[0, 1] = stiffness[1, 0] = 1.0
+    points = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    mesh = mceip.Mesh(points, [[0, 1], [2, 3], [4, 5], [6, 7]], [[0, 1, 2, 3]])
+    right = {"normal_direction": -1}
+    candidates = [mceip.Candidate(2 * k, 2 * k + 1, **{**right, **wrong}) for k in range(2)]
+    return mceip.Body(stiffness, candidates=candidates, held=[4, 5, 6, 7], mesh=mesh), mesh
+
+
+def test_directions_are_held_against_the_mesh():
+    press = mceip.Step("press", forces={1: -1, 3: -1})
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        body, mesh = square()
+        path = body.path([press], "0.5")
+    assert json.loads(path.loads())["coordinates"]["nodes"][0][2:] == ["0", "0"]
+    assert mesh.displacement(np.arange(8.0)).tolist() == [[0, 1], [2, 3], [4, 5], [6, 7]]
+
+    for wrong, words in [
+        ({"normal_direction": 1}, "the normal points into the body"),
+        ({"frame": [["4/5", "3/5"], ["-3/5", "4/5"]]}, "the tangent is turned"),
+    ]:
+        body, _ = square(**wrong)
+        with pytest.warns(mceip.ModelWarning, match=words):
+            body.path([press], "0.5")
+
+
+def test_what_is_no_mesh_of_the_body_is_refused():
+    candidates = [mceip.Candidate(0, 1)]
+    points = [[0.0, 0.0], [1.0, 0.0]]
+    press = mceip.Step("press", forces={1: 1})
+    for mesh, words in [
+        (mceip.Mesh(points, [[0, 1], [2, 9]]), "below 4, got 9"),
+        (mceip.Mesh(points, [[0, 1], [0, 3]]), "coordinates"),
+        (mceip.Mesh(points, [[0, 1]]), "dofs"),
+        (mceip.Mesh(points, [[0.0, 1.0], [2.0, 3.0]]), "dofs"),
+        (mceip.Mesh([[0, 0], [np.inf, 0]], [[0, 1], [2, 3]]), "finite"),
+        (mceip.Mesh(points, [[0, 1], [2, 3]], [[0, 1, 2]]), "cells"),
+    ]:
+        with pytest.raises(mceip.MceipError, match=words):
+            mceip.Body(np.eye(4), candidates=candidates, mesh=mesh).path([press], "0.5")
+
+    partly = mceip.Mesh(points, [[0, 1], [2, -1]])
+    assert partly.displacement([1.0, 2.0, 3.0]).tolist() == [[1, 2], [3, 0]]
+    with pytest.raises(mceip.MceipError, match="displacement"):
+        partly.displacement([1.0, 2.0])
+
+
 def test_what_looks_wrong_is_said_and_repeated_unless_it_is_accepted():
     mass = 1e9 * np.eye(3)
     heavy = mceip.Body(2 * np.eye(3), mass, candidates=[mceip.Candidate(0, 1)])
