@@ -26,7 +26,7 @@ use mceip_engine::analysis::{
 };
 use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
-use mceip_model::{ContactState, LoadedBody, ModelError, System};
+use mceip_model::{LoadedBody, ModelError, System};
 use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd, Stretch};
 use num_traits::{One, Signed};
 use serde_json::Value;
@@ -173,8 +173,7 @@ pub struct FrictionPoint {
     /// The path at this mu.
     pub path: LoadingPath,
     /// The equilibria on it that were asked whether they can diverge, each set of contact states
-    /// once, up to the first that can. States in which nothing slips cannot; that in which the path
-    /// ends is here all the same.
+    /// once, up to the first that can.
     pub examined: Vec<ExaminedEquilibrium>,
     /// Are the contact states of that which decides proved? `None` where there is none.
     pub states: Option<ProvedStates>,
@@ -235,17 +234,18 @@ impl PathPlace {
         }
     }
 
-    /// The places that are asked about, in order: the end alone, or one for each stretch in which
-    /// something slips, and the end. A path that ends before the loads are applied has none.
+    /// The places that are asked about, in order: one inside each stretch, unless the end is asked
+    /// alone, and the end, which a path that ends before the loads are applied has not.
+    ///
+    /// Stretches in which nothing slips are among them: that they do not diverge rests on a
+    /// definite K_ff, (P1), which is looked at when they are asked.
     fn all(path: &LoadingPath, is_end_alone: bool) -> Vec<PathPlace> {
-        let mut places = Vec::new();
-        for (k, stretch) in path.stretches.iter().enumerate().filter(|_| !is_end_alone) {
-            let states = stretch.equilibrium_states();
-            let slips = |state: &ContactState| matches!(state, ContactState::Slip { .. });
-            if states.iter().any(slips) {
-                places.push(PathPlace::Inside(k));
-            }
-        }
+        let stretches = 0..path.stretches.len();
+        let mut places: Vec<PathPlace> = if is_end_alone {
+            Vec::new()
+        } else {
+            stretches.map(PathPlace::Inside).collect()
+        };
 
         let last = path.stretches.last();
         if let Some(last) = last.filter(|_| path.is_whole()) {
