@@ -10,15 +10,15 @@
 //! opens. They are sectors of the plane of r' - u', and the map from r' - u' of all candidates to
 //! the load is linear on products of sectors and half lines. Its determinants are the principal
 //! minors of T(mu) with the candidate left out, slipping to either side, and open, times the
-//! determinant of the stiffness of the open candidates, which is not negative. If all are positive
-//! the map is coherently oriented; no face of codimension two has more than four pieces around it,
-//! so that the map is bijective (Kuhn and Löwen 1987). A body that can move without force where
-//! candidates open has a determinant 0.
+//! determinant of the stiffness of the open candidates; that of a K which is definite on them is
+//! positive, and no other is looked at. If all are positive the map is coherently oriented; no face
+//! of codimension two has more than four pieces around it, so that the map is bijective (Kuhn and
+//! Löwen 1987). A body that can move without force where candidates open has a determinant 0.
 //!
 //! Where that fails every set of states is tried for the load that grows ([`super::rates`]). All
 //! of it is exact; none of it is the work of the checker.
 
-use super::contact::{FrictionCoefficients, Load};
+use super::contact::{Contact, FrictionCoefficients, Load};
 use super::error::PathError;
 use super::line::Class;
 use super::loading_path::LoadingPath;
@@ -117,6 +117,10 @@ pub(super) fn is_one_for_every_load(
     if zeros.len() > ZEROS_UP_TO {
         return Ok(false);
     }
+    // Soundness hangs on this: of a K that is not definite, pieces have determinants of both signs.
+    if !zeros.is_empty() && !has_definite_stiffness(pencils.contact, states) {
+        return Ok(false);
+    }
 
     let pieces = [
         ContactState::Free,
@@ -136,6 +140,26 @@ pub(super) fn is_one_for_every_load(
     }
 
     Ok(true)
+}
+
+/// Is the stiffness of the candidates that are open, or may open, positive definite?
+fn has_definite_stiffness(contact: &Contact, states: &[ContactState]) -> bool {
+    let mut movable = Vec::new();
+    for (node, state) in states.iter().enumerate() {
+        if matches!(state, ContactState::Free | ContactState::Zero) {
+            movable.extend([2 * node, 2 * node + 1]);
+        }
+    }
+
+    let mut entries = Vec::with_capacity(movable.len() * movable.len());
+    for (i, &row) in movable.iter().enumerate() {
+        for (j, &column) in movable.iter().enumerate() {
+            let entry = contact.rows()[row][column].clone();
+            entries.push((i, j, Rational::from_integer(entry)));
+        }
+    }
+    let order = movable.len();
+    positive_definite(&Sparse::from_entries(order, order, entries)).is_ok()
 }
 
 /// Is the stiffness of the open candidates regular, and T(mu) of those that slip a P-matrix?
