@@ -182,7 +182,7 @@ class SolutionSet:
         regions = counted(len(self.open), "region")
         verdict = "complete" if self.is_complete else f"undecided: {regions} open"
         if self.families:
-            verdict += f", {counted(len(self.families), 'continuum', 'continua')}"
+            verdict += f", {counted(len(self.families), 'family', 'families')}"
         return verdict
 
     def __repr__(self) -> str:
@@ -238,7 +238,7 @@ class Accepted:
         count = counted(len(proved), "solution")
         return two_lines(
             f"Accepted {count}: {listed([str(claim.enclosure) for claim in proved])}",
-            f"{counted(len(self.families), 'continuum', 'continua')}, {regions}; {others}",
+            f"{counted(len(self.families), 'family', 'families')}, {regions}; {others}",
         )
 
 

@@ -142,7 +142,7 @@ class Body:
             path = loads.path(in_doubles, listener)
         if path is None:
             raise MceipError("the path was interrupted")
-        return LoadPath(path, float(fraction_of(spelt(friction, "friction"))))
+        return LoadPath(path, fraction_of(spelt(friction, "friction")))
 
 
 class LoadPath:
@@ -151,10 +151,10 @@ class LoadPath:
     Attributes:
         stretches: between two events, in order.
         end: why it ends.
-        friction: the coefficient mu, rounded.
+        friction: the coefficient mu.
     """
 
-    def __init__(self, native: NativeLoadPath, friction: float) -> None:
+    def __init__(self, native: NativeLoadPath, friction: Fraction) -> None:
         self._native = native
         self.friction = friction
         stretches = json.loads(native.stretches())
@@ -245,7 +245,7 @@ class LoadPath:
 
     def __repr__(self) -> str:
         count = counted(len(self.stretches), "stretch", "stretches")
-        return two_lines(f"LoadPath at mu = {self.friction:g}, {count}", self.end)
+        return two_lines(f"LoadPath at mu = {number_text(self.friction)}, {count}", self.end)
 
 
 @dataclass(frozen=True)
@@ -326,8 +326,8 @@ class OwnCritical:
 
     Attributes:
         found: "between", "at_most" (none below is decided), "none" or "undecided".
-        absent: the mu before the critical one at which divergence is proved absent on the path, if
-            there is one.
+        absent: the mu before the critical one at which divergence is proved absent inside every
+            stretch and at the end, if there is one.
         critical: the first mu at which divergence on it is proved, or the path ends.
         points: what is found at each mu, as in `mceip path --own-critical --json`.
         frozen: the critical friction of one state, held: of the one that diverges at `critical`,

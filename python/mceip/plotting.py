@@ -106,7 +106,7 @@ def plot_path(path: LoadPath, ax: Axes | None) -> Axes:
     load, tangential, normal = path.resultants().T
     ax.plot(load, tangential, "-o", markersize=4, label="T, tangential")
     ax.plot(load, normal, "--", label="N, normal")
-    ax.plot(load, path.friction * normal, ":", label="\u03bc N")
+    ax.plot(load, float(path.friction) * normal, ":", label="\u03bc N")
     begins = zip(path.stretches, load)
     for step, stretches in groupby(begins, key=lambda begin: begin[0].step):
         start = next(stretches)[1]

@@ -188,7 +188,7 @@ class Problem:
     ) -> SolutionSet:
         """All solutions in the window, with a proof that there are no others.
 
-        With an executor of `concurrent.futures` (of processes, or what Dask and mpi4py give) the
+        With an executor of `concurrent.futures` (of processes, or that of a client of Dask) the
         search is cut into parts, each a task; `merge` joins their certificates. The certificate is
         the same for any number of workers.
 

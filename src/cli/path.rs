@@ -313,7 +313,9 @@ fn own_critical(
     question = question.end_alone(args.end_alone);
     question = question.on_progress(|progress| job.say(progress));
     if let Some(folder) = folder {
-        question = question.on_point(|point| own::keep_point(folder, point));
+        question = question
+            .on_proof(|mu, place, proof| own::keep_divergence(folder, mu, place, proof))
+            .on_point(|point| own::keep_point(folder, point));
     }
     if let Some(folder) = folder.filter(|_| args.resume) {
         question = question.resume(|mu, place| own::earlier(folder, mu, place));

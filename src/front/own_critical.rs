@@ -7,8 +7,8 @@
 //! in which the path ends. Between neighbours with different answers more mu are examined until
 //! they are as near as asked for.
 //!
-//! The *critical friction found* is the first change among the mu examined from proved absence on
-//! the whole path to proved divergence somewhere on it, or to a path that ends although every set
+//! The *critical friction found* is the first change among the mu examined from proved absence at
+//! all these places to proved divergence at one, or to a path that ends although every set
 //! of contact states was tried. The path is the one that `mceip_path` follows, exact but without a
 //! certificate; that it is the only one is not claimed, and between two mu nothing is.
 //!
@@ -188,10 +188,6 @@ pub struct ExaminedEquilibrium {
     pub equilibrium: Equilibrium,
     /// Can it diverge in the form (8)? An error for contact states that are refused.
     pub divergence: Result<Divergence, AnalysisError>,
-    /// The certificate of that; `None` where a theorem answers. Of an equilibrium that does not
-    /// decide it is heard ([`FindOwnCritical::on_point`]) and not kept: those of a large body fill
-    /// the memory.
-    pub proof: Option<Proof>,
 }
 
 impl ExaminedEquilibrium {
@@ -429,12 +425,17 @@ pub(crate) fn require_mass(body: &LoadedBody) -> Result<(), Error> {
 /// The certificate about divergence that an earlier run has made at a mu and a place.
 type Earlier<'a> = dyn Fn(&Rational, PathPlace) -> Option<Certificate> + 'a;
 
+/// Hears the certificate about divergence at a mu and a place; `None` where a theorem answers, or
+/// nothing does.
+type OnDivergence<'a> = dyn Fn(&Rational, PathPlace, Option<&Proof>) + 'a;
+
 /// A search for the own critical friction; see [`LoadPath::own_critical`].
 pub struct FindOwnCritical<'a> {
     load_path: &'a LoadPath,
     grid: FrictionGrid,
     is_end_alone: bool,
     earlier: Box<Earlier<'a>>,
+    on_proof: Box<OnDivergence<'a>>,
     on_point: Box<dyn Fn(&FrictionPoint) + 'a>,
     watched: Watched<'a>,
 }
@@ -458,6 +459,7 @@ impl LoadPath {
             grid,
             is_end_alone: false,
             earlier: Box::new(|_, _| None),
+            on_proof: Box::new(|_, _, _| {}),
             on_point: Box::new(|_| {}),
             watched: Watched::default(),
         }
@@ -481,6 +483,13 @@ impl<'a> FindOwnCritical<'a> {
         earlier: impl Fn(&Rational, PathPlace) -> Option<Certificate> + 'a,
     ) -> Self {
         self.earlier = Box::new(earlier);
+        self
+    }
+
+    /// Hears each certificate about divergence as soon as it is accepted: no list holds them, for
+    /// those of a large body fill the memory.
+    pub fn on_proof(mut self, hear: impl Fn(&Rational, PathPlace, Option<&Proof>) + 'a) -> Self {
+        self.on_proof = Box::new(hear);
         self
     }
 
@@ -569,14 +578,15 @@ impl<'a> FindOwnCritical<'a> {
         }
 
         let mut examined: Vec<ExaminedEquilibrium> = Vec::new();
+        let mut proofs: Vec<Option<Proof>> = Vec::new();
         for place in PathPlace::all(&path, self.is_end_alone) {
             let equilibrium = place.equilibrium(&path);
             let states = equilibrium.contact_states();
             let mut same = examined.iter();
-            let same = same.find(|e| e.equilibrium.contact_states() == states);
+            let same = same.position(|e| e.equilibrium.contact_states() == states);
             let (divergence, proof) = match same {
                 Some(_) if place != PathPlace::End => continue,
-                Some(same) => (same.divergence.clone(), same.proof.clone()),
+                Some(same) => (examined[same].divergence.clone(), proofs[same].clone()),
                 None => {
                     say(&format!("{stage}, divergence {}", place_word(place)));
                     self.divergence(equilibrium, &mu, place, watch)
@@ -586,11 +596,12 @@ impl<'a> FindOwnCritical<'a> {
                 return Ok(None);
             }
 
+            (self.on_proof)(&mu, place, proof.as_ref());
+            proofs.push(proof);
             examined.push(ExaminedEquilibrium {
                 place,
                 equilibrium: equilibrium.clone(),
                 divergence,
-                proof,
             });
             let last = examined.last();
             if last.is_some_and(|last| last.verdict() == Verdict::Present) {
@@ -599,24 +610,18 @@ impl<'a> FindOwnCritical<'a> {
         }
 
         let body = self.load_path.loads().body();
-        let decides = deciding(&examined);
-        let states = decides.map(|decides| {
+        let states = deciding(&examined).map(|decides| {
             let ExaminedEquilibrium {
                 place, equilibrium, ..
             } = &examined[decides];
             certify_states(body, &path, place.stretch(&path), equilibrium)
         });
-        let mut point = FrictionPoint {
+        let point = FrictionPoint {
             path,
             examined,
             states,
         };
         (self.on_point)(&point);
-        for (k, examined) in point.examined.iter_mut().enumerate() {
-            if Some(k) != decides {
-                examined.proof = None;
-            }
-        }
         Ok(Some(point))
     }
 

@@ -2,8 +2,8 @@
 //! them does, held.
 //!
 //! The state inside each stretch is analysed as [`Problem::analyze`] does it, without samples:
-//! divergence at the mu of the path, and the critical friction with the contact states held. States
-//! in which nothing slips cannot diverge. Stretches in the same states are one analysis.
+//! divergence at the mu of the path, and the critical friction with the contact states held.
+//! Stretches in the same states are one analysis.
 //!
 //! [`Problem::analyze`]: super::Problem::analyze
 

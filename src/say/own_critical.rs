@@ -36,7 +36,8 @@ pub(crate) fn text_of(own: &OwnCritical) -> String {
     } else {
         "Examined is the path that is followed at each mu: an equilibrium inside each stretch, up \
          to the first that can diverge, and the one at the end of the loads (of a load without \
-         end: inside the last stretch). The columns are about the one that decides."
+         end: inside the last stretch), but not those at the events. The columns are about the one \
+         that decides."
     };
     let refused = refused_text(own);
     format!(
@@ -99,7 +100,8 @@ fn headline(own: &OwnCritical, names: &[&str]) -> String {
         "the equilibrium in which the path of these loads ends cannot diverge in the form (8), \
          proved"
     } else {
-        "no equilibrium on the path of these loads can diverge in the form (8), proved"
+        "none of the equilibria inside the stretches of the path of these loads, nor the one in \
+         which it ends, can diverge in the form (8), proved"
     };
     match own.bracket() {
         Bracket::Between(absent, critical) => {

@@ -11,6 +11,10 @@ use serde_json::{Value, json};
 
 /// Whether the path meets a state that can diverge, then a row for each stretch.
 pub(crate) fn text_of(found: &PathAnalysis) -> String {
+    if found.states.is_empty() {
+        return format!("{}\n", verdict_text(found));
+    }
+
     let mut table = Table::new(&HEADER);
     for row in rows_of(found) {
         table.row(row);
@@ -24,7 +28,8 @@ pub(crate) fn text_of(found: &PathAnalysis) -> String {
     format!(
         "{}\n{}{missing}\n{table}\n\
          The states are those of the equilibria inside each stretch; \"proved\" rests on a \
-         certificate that the checker has accepted, or on a theorem. Of the critical friction the \
+         certificate that the checker has accepted, or on a theorem. The path is exact, but has \
+         no certificate; --certificates certifies its states. Of the critical friction the \
          contact states are held: at another mu the loads may lead to others (--own-critical). \
          `path --states FOLDER` writes each state, `analyze` its certificates.\n",
         verdict_text(found),
@@ -77,6 +82,10 @@ fn rate_of(state: &StateAnalysis) -> Option<f64> {
 
 /// Does the path meet a state that can diverge at its friction?
 pub(crate) fn verdict_text(found: &PathAnalysis) -> String {
+    if found.states.is_empty() {
+        return "No state of the path was analysed.".into();
+    }
+
     let path = found.path().as_path();
     let mu = mu_text(&path.steps.friction);
     let with = |verdict| {
@@ -90,9 +99,9 @@ pub(crate) fn verdict_text(found: &PathAnalysis) -> String {
         let rate = rate_of(first).map(six_digits);
         let rate = rate.map_or_else(String::new, |rate| format!(", at up to about {rate} 1/s"));
         return format!(
-            "At mu = {mu} the path MEETS AN EQUILIBRIUM THAT CAN DIVERGE: the first inside stretch \
-             {} ({}, {} of it), where a motion in a fixed direction can grow exponentially, \
-             without oscillation{rate}; proved.",
+            "At mu = {mu} the path MEETS AN EQUILIBRIUM THAT CAN DIVERGE: the first that is known \
+             inside stretch {} ({}, {} of it), where a motion in a fixed direction can grow \
+             exponentially, without oscillation{rate}; proved.",
             first.stretch,
             names[stretch.step],
             amount_text(&stretch.inside),

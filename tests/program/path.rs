@@ -4,7 +4,9 @@
 
 use crate::common::{example, exits, exits_with_json, refused, repository};
 use crate::program::Folder;
+use mceip::FrictionGrid;
 use serde_json::{Value, json};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// The names of the files in a folder.
@@ -304,6 +306,46 @@ fn the_own_critical_friction_is_that_of_the_first_state_on_the_path_that_diverge
         !of_1_12.contains(&"mu-1.12-stretch-002.equilibrium.json".into()),
         "{of_1_12:?}"
     );
+}
+
+/// A run that is killed loses one state, not all those of the path at its mu.
+#[test]
+fn each_certificate_about_divergence_is_heard_when_it_is_found() {
+    let loads = mceip::Loads::read(example("own-critical")).unwrap();
+    let path = loads.path().run().unwrap().unwrap();
+    let range = ["1.1", "1.12"].map(|mu| mu.parse().unwrap());
+    let [least, greatest] = range;
+    let grid = FrictionGrid::new(least, greatest).unwrap();
+    let grid = grid.with_parts(1).unwrap();
+    let heard = RefCell::new(Vec::new());
+
+    let own = path.own_critical(grid);
+    let own = own.on_proof(|mu, place, proof| {
+        heard
+            .borrow_mut()
+            .push(format!("{mu} {place:?} {}", proof.is_some()));
+    });
+    let own = own.on_point(|point| heard.borrow_mut().push(format!("{} all", point.friction())));
+    own.run().unwrap();
+
+    let heard = heard.into_inner();
+    let first = [
+        "11/10 Inside(0) false",
+        "11/10 Inside(2) true",
+        "11/10 Inside(3) true",
+        "11/10 End true",
+        "11/10 all",
+    ];
+    assert_eq!(heard[..5], first);
+    assert_eq!(
+        heard[5..8],
+        [
+            "28/25 Inside(0) false",
+            "28/25 Inside(2) true",
+            "28/25 Inside(3) true"
+        ]
+    );
+    assert_eq!(heard[8], "28/25 all");
 }
 
 /// With `--resume` a proof in the folder is taken, checked again, in place of a search; one of

@@ -18,7 +18,7 @@
 use super::error::PathError;
 use super::load_steps::require_positive;
 use mceip_exact::{Integer, Rational, common_denominator, to_f64};
-use mceip_model::ModelError;
+use mceip_model::{ContactState, ModelError};
 use num_traits::{One, Signed, Zero};
 
 /// K and the loads condensed to the contact candidates, as integers over one denominator.
@@ -185,6 +185,18 @@ impl Contact {
         unit[self.component(load)] = Integer::one();
         unit
     }
+}
+
+/// The components of w of the candidates that are open, or may open.
+pub(super) fn open_components(states: &[ContactState]) -> Vec<usize> {
+    let mut open = Vec::new();
+    for (node, state) in states.iter().enumerate() {
+        if matches!(state, ContactState::Free | ContactState::Zero) {
+            open.extend([2 * node, 2 * node + 1]);
+        }
+    }
+
+    open
 }
 
 #[cfg(test)]

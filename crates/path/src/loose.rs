@@ -7,7 +7,7 @@
 //! columns of the condensed stiffness C that can move, beside the largest of C.
 #![allow(clippy::float_arithmetic)]
 
-use super::contact::Contact;
+use super::contact::{Contact, open_components};
 use super::loading_path::LoadingPath;
 use super::stretch::Stretch;
 use mceip_model::ContactState;
@@ -20,6 +20,9 @@ impl Contact {
     pub fn held_by_rounding(&self, path: &LoadingPath) -> Vec<usize> {
         let order = 2 * self.nodes();
         let stiffness = self.rows_f64();
+        if stiffness.iter().flatten().any(|entry| !entry.is_finite()) {
+            return Vec::new(); // no opinion on what doubles cannot hold
+        }
         let stiffness = DMatrix::from_fn(order, order, |i, j| stiffness[i][j]);
         let all = stiffness.symmetric_eigenvalues();
         let least_allowed = HELD * all.amax();
@@ -44,12 +47,10 @@ impl Contact {
 
 /// The components of w that nothing holds in these states.
 fn movable(states: &[ContactState]) -> Vec<usize> {
-    let mut movable = Vec::new();
+    let mut movable = open_components(states);
     for (node, state) in states.iter().enumerate() {
-        match state {
-            ContactState::Stick => {}
-            ContactState::Slip { .. } => movable.push(2 * node),
-            ContactState::Free | ContactState::Zero => movable.extend([2 * node, 2 * node + 1]),
+        if matches!(state, ContactState::Slip { .. }) {
+            movable.push(2 * node);
         }
     }
 

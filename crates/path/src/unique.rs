@@ -18,7 +18,7 @@
 //! Where that fails every set of states is tried for the load that grows ([`super::rates`]). All
 //! of it is exact; none of it is the work of the checker.
 
-use super::contact::{Contact, FrictionCoefficients, Load};
+use super::contact::{Contact, FrictionCoefficients, Load, open_components};
 use super::error::PathError;
 use super::line::Class;
 use super::loading_path::LoadingPath;
@@ -144,21 +144,15 @@ pub(super) fn is_one_for_every_load(
 
 /// Is the stiffness of the candidates that are open, or may open, positive definite?
 fn has_definite_stiffness(contact: &Contact, states: &[ContactState]) -> bool {
-    let mut movable = Vec::new();
-    for (node, state) in states.iter().enumerate() {
-        if matches!(state, ContactState::Free | ContactState::Zero) {
-            movable.extend([2 * node, 2 * node + 1]);
-        }
-    }
-
-    let mut entries = Vec::with_capacity(movable.len() * movable.len());
-    for (i, &row) in movable.iter().enumerate() {
-        for (j, &column) in movable.iter().enumerate() {
+    let open = open_components(states);
+    let mut entries = Vec::with_capacity(open.len() * open.len());
+    for (i, &row) in open.iter().enumerate() {
+        for (j, &column) in open.iter().enumerate() {
             let entry = contact.rows()[row][column].clone();
             entries.push((i, j, Rational::from_integer(entry)));
         }
     }
-    let order = movable.len();
+    let order = open.len();
     positive_definite(&Sparse::from_entries(order, order, entries)).is_ok()
 }
 

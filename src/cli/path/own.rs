@@ -53,10 +53,23 @@ pub(super) fn earlier(folder: &Folder, mu: &Rational, place: PathPlace) -> Optio
     Certificate::from_json(&text).ok()
 }
 
-/// Writes the certificate of the contact states that decide as `NAME.equilibrium.json`, and the
-/// proofs about divergence as `NAME.problem.json` and `NAME.certificate.json`; NAME is `mu-VALUE`
-/// at the end of the path, `mu-VALUE-stretch-NUMBER` inside a stretch. Files of an earlier run that
-/// nothing takes the place of go.
+/// Writes the proof about divergence at a place as `NAME.problem.json` and `NAME.certificate.json`;
+/// NAME is `mu-VALUE` at the end of the path, `mu-VALUE-stretch-NUMBER` inside a stretch.
+pub(super) fn keep_divergence(
+    folder: &Folder,
+    mu: &Rational,
+    place: PathPlace,
+    proof: Option<&Proof>,
+) {
+    let name = name_of(mu, place);
+    match proof {
+        Some(proof) => keep_proof(folder, &name, proof),
+        None => folder.remove_proof(&name), // a theorem answers, or nothing does
+    }
+}
+
+/// Writes the certificate of the contact states that decide as `NAME.equilibrium.json`. Files of an
+/// earlier run that nothing takes the place of go.
 pub(super) fn keep_point(folder: &Folder, point: &FrictionPoint) {
     let mu = point.friction();
     let equilibrium = |name: &str| format!("{name}.equilibrium.json");
@@ -69,11 +82,6 @@ pub(super) fn keep_point(folder: &Folder, point: &FrictionPoint) {
             PathPlace::Inside(stretch) => inside.push(stretch),
             PathPlace::End => has_end = true,
         }
-        match &examined.proof {
-            Some(proof) => keep_proof(folder, &name, proof),
-            None => folder.remove_proof(&name), // a theorem: nothing slips
-        }
-
         match &point.states {
             Some(Ok(states)) if deciding == Some(examined.place) => {
                 if let Some(text) = folder.made(states.file()) {
