@@ -12,7 +12,7 @@ use super::common::{
 };
 use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
-use super::pictures;
+use super::pictures::{self, PictureArgs};
 use super::question::load_system;
 use crate::Analyze;
 use crate::say::{mu_text, warnings_text};
@@ -53,10 +53,8 @@ pub(super) struct Args {
     /// with pictures of the body where the problem file has coordinates.
     #[arg(long, value_name = "OUT")]
     report: Option<PathBuf>,
-    /// Write the pictures of the report as SVG files into this folder, as PNG too in a build with
-    /// the feature png.
-    #[arg(long, value_name = "DIR", visible_alias = "figures")]
-    pictures: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: PictureArgs,
     /// Threads (default: all cores). The answer does not depend on it.
     #[arg(long)]
     threads: Option<usize>,
@@ -93,7 +91,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         None => None,
     };
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
-    let pictures = Folder::prepare_if("pictures", args.pictures.as_deref(), &[&args.file])?;
+    let pictures = args
+        .pictures
+        .prepare(&args.file, file.coordinates.is_some())?;
     if let (Some(report), Some(folder)) = (&args.report, &args.certificates) {
         refuse_among_proofs(report, folder)?;
     }
@@ -113,7 +113,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         });
     }
     let analysis = question.run()?;
-    let is_drawn = report.is_some() || pictures.is_some();
+    let is_drawn = report.is_some() || pictures.are_wanted();
     let branches = if is_drawn {
         let chart = job.watched(|watch| page::branches(&analysis, system, watch));
         pictures::drawn(chart, &job)
@@ -135,9 +135,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let page = report.map_or(Ok(()), |output| {
         output.write(&page::page(&analysis, &drawn))
     });
-    let pictures = pictures.map_or(Ok(()), |folder| {
-        pictures::write_all(&folder, &drawn.pictures(&analysis))
-    });
+    let pictures = if pictures.are_wanted() {
+        pictures.write_all(&drawn.pictures(&analysis))
+    } else {
+        Ok(())
+    };
 
     let text = if args.json {
         format!("{}\n", analysis.to_json(paths))

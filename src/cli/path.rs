@@ -12,7 +12,7 @@ mod states;
 use super::common::{CliError, exit, positive, print, text};
 use super::job::Job;
 use super::output::{Folder, Output};
-use super::pictures;
+use super::pictures::{self, PictureArgs, PictureFolders};
 use crate::front::require_mass;
 use crate::say::counted;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical, PathAnalysis};
@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(
     group = clap::ArgGroup::new("examined")
-        .args(["complete", "report", "pictures"])
+        .args(["complete", "report", "pictures", "vtk"])
         .multiple(true)
 )]
 pub(super) struct Args {
@@ -132,14 +132,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
     /// The path, every state's answers and pictures as one HTML file (implies --complete
-    /// --conditions; with --own-critical that answer instead); modes are drawn where the file has
-    /// coordinates.
+    /// --conditions, as --pictures and --vtk do; with --own-critical that answer instead); modes
+    /// are drawn where the file has coordinates.
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
-    /// All pictures of the report as SVG files in this folder, as PNG too in a build with the
-    /// feature png (implies --complete --conditions; with --own-critical that answer instead).
-    #[arg(long, value_name = "FOLDER", visible_alias = "figures")]
-    pictures: Option<PathBuf>,
+    #[command(flatten)]
+    pictures: PictureArgs,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -153,7 +151,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
     let report = Output::prepare_if("report", args.report.as_deref(), input)?;
-    let pictures = Folder::prepare_if("pictures", args.pictures.as_deref(), input)?;
+    let has_places = loads.as_file().coordinates.is_some();
+    let pictures = args.pictures.prepare(&args.file, has_places)?;
     let folder = Folder::prepare_if("states", args.states.as_deref(), input)?;
     let proofs = Folder::prepare_if("certificates", args.certificates.as_deref(), input)?;
     let own_asked = match args.own_critical.as_slice() {
@@ -197,7 +196,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let say = |progress: &Progress<'_>| job.say(progress);
     let watch = Watch::new(job.cancel(), &say);
-    let is_shown = report.is_some() || pictures.is_some();
+    let is_shown = report.is_some() || pictures.are_wanted();
     // Nothing is proved of the given body on matrices that were rounded.
     let uncondensed = args.uncondensed || args.doubles;
     let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
@@ -245,7 +244,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     // An interrupted run leaves no pictures.
     let shown = shown.filter(|_| !job.is_cancelled());
-    let pages = shown.map_or(Ok(()), |shown| write_pages(&shown, report, pictures));
+    let pages = shown.map_or(Ok(()), |shown| write_pages(&shown, report, &pictures));
     let certified = match (&proofs, &own) {
         (Some(folder), None) => Some(certify_stretches(&followed, folder, &job)?),
         _ => None,
@@ -340,16 +339,17 @@ fn choice_of(text: &str) -> Result<(usize, usize), CliError> {
 fn write_pages(
     shown: &Shown<'_>,
     report: Option<Output>,
-    folder: Option<Folder>,
+    pictures: &PictureFolders,
 ) -> Result<(), CliError> {
     if let Some(file) = report {
         file.write(&shown.report()?.to_html())?;
     }
 
-    match folder {
-        Some(folder) => pictures::write_all(&folder, &shown.pictures()?),
-        None => Ok(()),
+    if pictures.are_wanted() {
+        pictures.write_all(&shown.pictures()?)?;
     }
+
+    Ok(())
 }
 
 /// Reads the text of a file of a body under loads; stdin has its matrices in this folder.

@@ -1,23 +1,52 @@
 //! What the pages of `analyze` and `path` have in common: pictures with their captions, as figures
-//! and as files in a folder; the levels of the chart of lambda against mu; warnings of the model.
+//! and as files in folders; the levels of the chart of lambda against mu; warnings of the model.
 
 use super::common::CliError;
 use super::job::Job;
 use super::output::Folder;
-use crate::picture::{ChartPoint, Content, Picture};
+use crate::picture::{BodyDrawing, ChartPoint, Content, Picture, body_picture, body_vtu};
 use mceip_engine::reduction::SparseCondensation;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::{level_solutions, static_frequency2};
 use mceip_model::System;
+use std::path::{Path, PathBuf};
 
 /// A picture with the name of its file and what to read off it.
 pub(super) struct Named {
-    pub(super) name: String,
-    pub(super) picture: Picture,
-    pub(super) caption: String,
+    name: String,
+    picture: Picture,
+    caption: String,
+    /// Of a body: the same as a VTU file.
+    vtu: Option<String>,
 }
 
 impl Named {
+    pub(super) fn chart(
+        name: impl Into<String>,
+        picture: Picture,
+        caption: impl Into<String>,
+    ) -> Named {
+        Named {
+            name: name.into(),
+            picture,
+            caption: caption.into(),
+            vtu: None,
+        }
+    }
+
+    pub(super) fn body(
+        name: impl Into<String>,
+        title: &str,
+        body: &BodyDrawing<'_>,
+        caption: impl Into<String>,
+    ) -> Named {
+        let picture = body_picture(title, body);
+        Named {
+            vtu: Some(body_vtu(body)),
+            ..Named::chart(name, picture, caption)
+        }
+    }
+
     pub(super) fn into_figure(self) -> Content {
         Content::Figure {
             picture: self.picture,
@@ -32,21 +61,71 @@ pub(super) fn warnings_of(warnings: &[String]) -> impl Iterator<Item = Content> 
     sentences.map(|warning| Content::Warning(format!("Warning of convert: {warning}.")))
 }
 
+/// Options that write pictures to files.
+#[derive(clap::Args)]
+pub(super) struct PictureArgs {
+    /// Write the pictures of the report as SVG files into this folder, as PNG too in a build with
+    /// the feature png.
+    #[arg(long, value_name = "FOLDER", visible_alias = "figures")]
+    pictures: Option<PathBuf>,
+    /// Write the body and its modes as VTU files, for ParaView, into this folder; the problem file
+    /// needs coordinates.
+    #[arg(long, value_name = "FOLDER")]
+    vtk: Option<PathBuf>,
+}
+
+impl PictureArgs {
+    /// Prepares the folders; `has_places` says whether the file has coordinates.
+    pub(super) fn prepare(
+        &self,
+        file: &Path,
+        has_places: bool,
+    ) -> Result<PictureFolders, CliError> {
+        if let (Some(folder), false) = (&self.vtk, has_places) {
+            let expected = "a file with coordinates (`mceip convert --coordinates` adds them)";
+            return Err(CliError::option("vtk", expected, &folder.to_string_lossy()));
+        }
+
+        Ok(PictureFolders {
+            pictures: Folder::prepare_if("pictures", self.pictures.as_deref(), &[file])?,
+            vtk: Folder::prepare_if("vtk", self.vtk.as_deref(), &[file])?,
+        })
+    }
+}
+
+/// Where the files of pictures go.
+pub(super) struct PictureFolders {
+    pictures: Option<Folder>,
+    vtk: Option<Folder>,
+}
+
+impl PictureFolders {
+    /// Is any file asked for?
+    pub(super) fn are_wanted(&self) -> bool {
+        self.pictures.is_some() || self.vtk.is_some()
+    }
+
+    /// Writes the pictures as SVG files, as PNG too in a build with the feature png; bodies as VTU.
+    pub(super) fn write_all(&self, all: &[Named]) -> Result<(), CliError> {
+        for named in all {
+            if let Some(folder) = &self.pictures {
+                let svg = named.picture.to_svg();
+                folder.write(&format!("{}.svg", named.name), svg.as_bytes())?;
+                #[cfg(feature = "png")]
+                folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
+            }
+            if let (Some(folder), Some(vtu)) = (&self.vtk, &named.vtu) {
+                folder.write(&format!("{}.vtu", named.name), vtu.as_bytes())?;
+            }
+        }
+
+        Ok(())
+    }
+}
+
 /// Pixels of a PNG for each px of the SVG.
 #[cfg(feature = "png")]
 const ZOOM: f32 = 2.0;
-
-/// Writes the pictures as SVG files, as PNG too in a build with the feature png.
-pub(super) fn write_all(folder: &Folder, pictures: &[Named]) -> Result<(), CliError> {
-    for named in pictures {
-        let svg = named.picture.to_svg();
-        folder.write(&format!("{}.svg", named.name), svg.as_bytes())?;
-        #[cfg(feature = "png")]
-        folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
-    }
-
-    Ok(())
-}
 
 /// Levels of lambda^2: the lowest static frequency squared times 1.5^k, for k in this range.
 const LEVELS: std::ops::Range<i32> = -10..14;

@@ -230,7 +230,7 @@ impl BodyMode<'_> {
 
 impl BodyDrawing<'_> {
     /// v of a node along x and y; 0 where the node has no such degree of freedom.
-    fn displacement(&self, node: usize, mode: &BodyMode<'_>) -> (f64, f64) {
+    pub(super) fn displacement(&self, node: usize, mode: &BodyMode<'_>) -> (f64, f64) {
         let [along_x, along_y] = self.coordinates.nodes()[node].dofs;
         (mode.component(along_x), mode.component(along_y))
     }

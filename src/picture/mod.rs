@@ -9,7 +9,7 @@
 //! `marker` and `legend` the contact states; then a file for each picture: [`body_picture`],
 //! [`path_picture`], [`threshold_picture`], [`branch_picture`],
 //! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`ReportPage`]
-//! puts them into a page.
+//! puts them into a page. `vtu` writes a body for ParaView.
 
 mod body;
 mod branch;
@@ -28,6 +28,7 @@ mod report;
 mod scale;
 mod table1;
 mod threshold;
+mod vtu;
 
 pub use body::{BodyDrawing, BodyMode, body_picture};
 pub use branch::{Branches, ChartPoint, branch_picture};
@@ -44,3 +45,4 @@ pub use report::{Content, ReportPage, Section};
 pub use scale::{Scale, Spread};
 pub use table1::table1_picture;
 pub use threshold::{Threshold, ThresholdColumn, threshold_picture};
+pub use vtu::body_vtu;

@@ -1012,8 +1012,11 @@ fn the_report_draws_a_body_with_coordinates() {
     let drawn = folder.write("drawn.json", &problem.to_string());
 
     let figures = folder.path("figures");
-    let options = format!("--report {page} --pictures {figures} --samples 0");
+    let vtk = folder.path("vtk");
+    let options = format!("--report {page} --pictures {figures} --vtk {vtk} --samples 0");
     let text = exits(0, &format!("analyze {drawn} {options}"));
+    assert!(!read(&format!("{vtk}/body.vtu")).contains("\"mode\""));
+    assert!(read(&format!("{vtk}/mode-01.vtu")).contains("\"mode\""));
 
     let html = read(&page);
     let tree = html.strip_prefix("<!DOCTYPE html>\n").unwrap();
@@ -1037,6 +1040,8 @@ fn the_report_draws_a_body_with_coordinates() {
     );
 
     let plain = example("two-particles");
+    let nowhere = format!("analyze {plain} --vtk {vtk}");
+    refused(&nowhere, &["--vtk", "expected a file with coordinates"]);
     let without = exits(0, &format!("analyze {plain} --report {page} --samples 0"));
     let html = read(&page);
     let unnamed = text.replace("left foot", "0").replace("<right>", "1");

@@ -10,8 +10,9 @@ use crate::common::{exit_code, exits, exits_with_json, read, refused};
 use crate::program::Folder;
 use mceip::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, CostSeries, Mark, PathDrawing, Picture, Presence,
-    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, branch_picture,
-    cost_picture, path_picture, presence_picture, table1_picture, threshold_picture,
+    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, body_vtu,
+    branch_picture, cost_picture, path_picture, presence_picture, table1_picture,
+    threshold_picture,
 };
 use mceip_exact::to_f64;
 use mceip_model::file::read_problem;
@@ -311,6 +312,43 @@ fn a_body_has_its_nodes_states_and_arrows() {
         let text = sound(&body_picture("body", &elsewhere));
         assert!(!text.contains("NaN") && !text.contains("inf"), "{place}");
     }
+}
+
+/// The same body for ParaView: places, edges, states and the mode, node by node.
+#[test]
+fn a_body_is_a_vtu_file() {
+    let problem = body_on_a_wedge();
+    let v = [0.5, -0.25, 0.0, 0.0, f64::NAN, 0.0];
+    let mut drawing = BodyDrawing {
+        coordinates: problem.coordinates.as_ref().unwrap(),
+        particles: system_of(&problem).particles(),
+        mode: Some(BodyMode {
+            v: &v,
+            slipping: &[0],
+        }),
+    };
+
+    let text = body_vtu(&drawing);
+    let tree = Document::parse(&text).unwrap();
+    let array = |name: &str| {
+        let mut arrays = tree.descendants().filter(|n| n.has_tag_name("DataArray"));
+        let found = arrays.find(|n| n.attribute("Name") == Some(name));
+        found.unwrap().text().unwrap().to_string()
+    };
+    let piece = tree.descendants().find(|n| n.has_tag_name("Piece"));
+    assert_eq!(piece.unwrap().attribute("NumberOfPoints"), Some("3"));
+    assert_eq!(piece.unwrap().attribute("NumberOfCells"), Some("2"));
+    assert_eq!(array("places"), "0e0 0e0 0 2e0 0e0 0 0e0 0e0 0");
+    assert_eq!(array("connectivity"), "0 2 1 2");
+    assert_eq!(array("offsets"), "2 4");
+    assert_eq!(array("types"), "3 3", "lines");
+    assert_eq!(array("contact"), "3 3 0", "impending slip, no particle");
+    assert_eq!(array("slips"), "1 0 0");
+    assert_eq!(array("mode"), "5e-1 -2.5e-1 0 0e0 0e0 0 0e0 0e0 0");
+
+    drawing.mode = None;
+    let text = body_vtu(&drawing);
+    assert!(text.contains("\"contact\"") && !text.contains("\"mode\""));
 }
 
 fn body_on_a_wedge() -> Problem {

@@ -4,7 +4,7 @@ use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange,
-    ReportPage, Section, body_picture, branch_picture, presence_picture,
+    ReportPage, Section, branch_picture, presence_picture,
 };
 use mceip_engine::analysis::{Analysis, Evidence, Mode, Verdict};
 use mceip_engine::run::Watch;
@@ -42,11 +42,7 @@ impl Drawn<'_> {
             None => "The body and the states of its particles, as the problem file gives them.",
             Some(_) => "The direction in which the body departs; displacements have one scale.",
         };
-        Some(Named {
-            name,
-            picture: body_picture(title, &drawing),
-            caption: caption.into(),
-        })
+        Some(Named::body(name, title, &drawing, caption))
     }
 
     /// The body at equilibrium.
@@ -69,14 +65,12 @@ impl Drawn<'_> {
 
     fn branch_chart(&self) -> Option<Named> {
         let branches = self.branches.as_ref()?;
-        Some(Named {
-            name: "lambda".into(),
-            picture: branch_picture("Growth rate \u{3bb} against \u{3bc}", branches),
-            caption: format!(
-                "{LEVELS_CAPTION} The squares are certified. Where a curve turns back, two motions \
-                 grow at the same \u{3bc}."
-            ),
-        })
+        let picture = branch_picture("Growth rate \u{3bb} against \u{3bc}", branches);
+        let caption = format!(
+            "{LEVELS_CAPTION} The squares are certified. Where a curve turns back, two motions \
+             grow at the same \u{3bc}."
+        );
+        Some(Named::chart("lambda", picture, caption))
     }
 
     /// Every picture of the page.
@@ -178,14 +172,11 @@ fn answers(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
 
 fn presence_chart(analysis: &Analysis) -> Named {
     let title = "Divergence against the coefficient of friction";
-    Named {
-        name: "presence".into(),
-        picture: presence_picture(title, &presence(analysis)),
-        caption: "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
-                  Dots are single values, each decided by a complete search; in a dashed box \
-                  nothing is proved between them. Where there is no box, nothing was examined."
-            .into(),
-    }
+    let picture = presence_picture(title, &presence(analysis));
+    let caption = "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
+                   Dots are single values, each decided by a complete search; in a dashed box \
+                   nothing is proved between them. Where there is no box, nothing was examined.";
+    Named::chart("presence", picture, caption)
 }
 
 /// Particles in impending slip up to which lambda is drawn against mu: each level is a complete

@@ -187,13 +187,10 @@ fn strip(own: &OwnCritical) -> Named {
         words: ["\u{3bc} of the path", "first critical \u{3bc} examined"],
     };
     let title = "Divergence on the path of the loads, against \u{3bc}";
-    Named {
-        name: "own-critical".into(),
-        picture: presence_picture(title, &chart),
-        caption: "Dots are the \u{3bc} examined: at each of them the loading path is followed. \
-                  Between them nothing is claimed; a box joins neighbours with the same answer."
-            .into(),
-    }
+    let picture = presence_picture(title, &chart);
+    let caption = "Dots are the \u{3bc} examined: at each of them the loading path is followed. \
+                   Between them nothing is claimed; a box joins neighbours with the same answer.";
+    Named::chart("own-critical", picture, caption)
 }
 
 fn drawn(answer: FrictionAnswer) -> Presence {
@@ -226,12 +223,8 @@ fn growth(own: &OwnCritical) -> Option<Named> {
         certified,
         absent_below: None,
     };
-    Some(Named {
-        name: "own-critical-growth".into(),
-        picture: branch_picture(
-            "Growth rates in these equilibria, against \u{3bc}",
-            &branches,
-        ),
-        caption: "Every motion that is proved to grow, at each \u{3bc} that was examined.".into(),
-    })
+    let title = "Growth rates in these equilibria, against \u{3bc}";
+    let picture = branch_picture(title, &branches);
+    let caption = "Every motion that is proved to grow, at each \u{3bc} that was examined.";
+    Some(Named::chart("own-critical-growth", picture, caption))
 }

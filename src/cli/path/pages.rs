@@ -14,8 +14,7 @@ use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, PathDrawing, Picture, ReportPage,
-    Section, Threshold, ThresholdColumn, body_picture, branch_picture, path_picture,
-    threshold_picture,
+    Section, Threshold, ThresholdColumn, branch_picture, path_picture, threshold_picture,
 };
 use crate::say::counted;
 use crate::say::path::{
@@ -175,35 +174,26 @@ impl Shown<'_> {
     }
 
     fn path_chart(&self) -> Named {
-        Named {
-            name: "path".into(),
-            picture: path_chart(self.followed, self.names),
-            caption: PATH_CAPTION.into(),
-        }
+        let picture = path_chart(self.followed, self.names);
+        Named::chart("path", picture, PATH_CAPTION)
     }
 
     fn threshold_chart(&self, states: &[ProvedState]) -> Named {
         let columns: Vec<ThresholdColumn> = states.iter().map(threshold_column).collect();
         let mu = to_f64(&self.path().steps.friction);
         let title = "MCEIP-\u{3bc} along the loading path";
-
-        Named {
-            name: "thresholds".into(),
-            picture: threshold_picture(title, &columns, mu),
-            caption: THRESHOLDS_CAPTION.into(),
-        }
+        let picture = threshold_picture(title, &columns, mu);
+        Named::chart("thresholds", picture, THRESHOLDS_CAPTION)
     }
 
     fn branch_chart(&self) -> Option<Named> {
         let StateBranches { stretch, branches } = self.branches.as_ref()?;
         let title =
             format!("Growth rate \u{3bb} against \u{3bc} for the state of stretch {stretch}");
-
-        Some(Named {
-            name: format!("lambda-stretch-{stretch:02}"),
-            picture: branch_picture(&title, branches),
-            caption: format!("{LEVELS_CAPTION} The threshold and the squares are certified."),
-        })
+        let name = format!("lambda-stretch-{stretch:02}");
+        let picture = branch_picture(&title, branches);
+        let caption = format!("{LEVELS_CAPTION} The threshold and the squares are certified.");
+        Some(Named::chart(name, picture, caption))
     }
 
     /// A picture for each solution of a state; none where the places of the nodes are not known.
@@ -499,16 +489,13 @@ impl DrawnState<'_> {
         };
         let moving = slipping.len();
         let slip = self.state.slip;
+        let caption = if moving == slip {
+            "All candidates in impending slip move.".into()
+        } else {
+            format!("{moving} of {slip} candidates in impending slip move, the others stick.")
+        };
 
-        Some(Named {
-            name,
-            picture: body_picture(title, &drawn),
-            caption: if moving == slip {
-                "All candidates in impending slip move.".into()
-            } else {
-                format!("{moving} of {slip} candidates in impending slip move, the others stick.")
-            },
-        })
+        Some(Named::body(name, title, &drawn, caption))
     }
 }
 
