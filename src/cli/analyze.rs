@@ -15,7 +15,7 @@ use super::output::{Folder, Output, folder_of};
 use super::pictures::{self, PictureArgs};
 use super::question::load_system;
 use crate::Analyze;
-use crate::say::{mu_text, warnings_text};
+use crate::say::{number_text, warnings_text};
 use mceip_engine::analysis::{Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES};
 use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
@@ -288,7 +288,7 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
         None => format!(
             "Next: `mceip analyze {file} --friction {} --certificates proofs` writes the \
              certificates, for `mceip check`.",
-            mu_text(&analysis.friction)
+            number_text(&analysis.friction)
         ),
     }
 }

@@ -6,6 +6,7 @@
 use super::common::{CliError, aside, exit, load, positive, print, text};
 use super::job::Job;
 use super::output::{self, Output};
+use crate::say::window_text;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{AcceptedClaim, AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
@@ -14,7 +15,7 @@ use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
 use mceip_engine::multistart::{exact_value, is_about, same_x};
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
-use mceip_exact::{Interval, Rational, enclosing_decimals};
+use mceip_exact::{Rational, enclosing_decimals};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, System, Unknown};
 use std::path::{Path, PathBuf};
@@ -459,26 +460,5 @@ fn solutions_text(cover: &AcceptedCover) -> String {
 fn interval(problem: &Problem, proved: &Completed) -> String {
     let word = problem.unknown().word();
     let window = &proved.proved.certificate().window;
-    let min = decimal(window.min());
-
-    match window.max() {
-        Some(max) => format!("with {word} in [{min}, {}]", decimal(max)),
-        None => format!("with {word} in [{min}, infinity)"),
-    }
-}
-
-/// The ends of such a window are short decimals, or those of the problem's window: exact where 17
-/// digits suffice.
-fn decimal(value: &Rational) -> String {
-    let (lo, hi) = enclosing_decimals(&Interval::point(value.clone()), 17);
-    if lo != hi {
-        return value.to_string();
-    }
-
-    let has_needless_zeros = lo.contains('.') && !lo.contains('e');
-    if has_needless_zeros {
-        lo.trim_end_matches('0').trim_end_matches('.').into()
-    } else {
-        lo
-    }
+    format!("with {word} in {}", window_text(window))
 }

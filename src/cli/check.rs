@@ -12,7 +12,7 @@ use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
 use super::path::read_loads_of;
 use crate::say::path::LETTERS;
-use crate::say::{self, mu_text};
+use crate::say::{self, number_text, window_text};
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
     EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,
@@ -125,6 +125,7 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
             let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
             // At mu = 0 a slip particle may slide both ways, of which (9) has one.
             let begin = if from.is_zero() { "(" } else { "[" };
+            let [from, below] = [&from, &below].map(number_text);
             let window = format!("friction in {begin}{from}, {below}], lambda2 in [0, infinity)");
             let text = format!("ABSENT for {window}: no solution ({evidence})\n");
             (text, exit::DONE)
@@ -162,7 +163,7 @@ fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String
         states,
     } = accepted;
     let letters: String = states.iter().map(|state| state.letter()).collect();
-    let amounts: Vec<String> = amounts.iter().map(mu_text).collect();
+    let amounts: Vec<String> = amounts.iter().map(number_text).collect();
 
     let mut digests = format!("loads {}", body.sha256());
     for unknown in [Unknown::Mu, Unknown::Lambda2] {
@@ -176,7 +177,7 @@ fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String
         "EQUILIBRIUM: under the loads times {}, with friction {}, there is one in the contact \
          states {letters} ({LETTERS}; {digests})\n",
         amounts.join(", "),
-        mu_text(friction)
+        number_text(friction)
     )
 }
 
@@ -189,6 +190,7 @@ fn presence(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
         Ok(AcceptedPresence { from, to, pieces }) => {
             let digest = problem.sha256();
             let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
+            let [from, to] = [&from, &to].map(number_text);
             let text = format!(
                 "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0 \
                  ({evidence})\n"
@@ -270,7 +272,8 @@ fn say_accepted(
         && !window.covers(demanded)
     {
         code = exit::REJECTED;
-        out += &format!("REJECTED: window: expected one that covers {demanded}, got {window}\n");
+        let [expected, got] = [demanded, window].map(window_text);
+        out += &format!("REJECTED: window: expected one that covers {expected}, got {got}\n");
     }
 
     print(&out)?;
@@ -281,6 +284,7 @@ fn say_accepted(
 fn claims_verdict(problem: &Problem, window: &Window, count: usize) -> String {
     let digest = problem.sha256();
     let smaller = smaller_text(window, problem.window());
+    let window = window_text(window);
     format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {window}{smaller}\n")
 }
 
@@ -291,6 +295,7 @@ fn absence_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) ->
     let leaves = cover.leaves;
     let smaller = smaller_text(window, problem.window());
     let evidence = format!("{word}, problem {digest}, {leaves} leaves accepted");
+    let window = window_text(window);
 
     format!("ABSENT in {window}: no solution ({evidence}){smaller}\n")
 }
@@ -312,6 +317,7 @@ fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> S
 
     let digest = problem.sha256();
     let smaller = smaller_text(window, problem.window());
+    let window = window_text(window);
     format!("{solutions}{verdict} for problem {digest} in {window}{smaller}\n")
 }
 
@@ -338,6 +344,7 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
         return String::new();
     }
 
+    let wanted = window_text(wanted);
     format!("; NOT the whole window {wanted} of the problem")
 }
 

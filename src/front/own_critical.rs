@@ -18,7 +18,7 @@
 use super::error::Error;
 use super::loads::{LoadPath, Loads, ProvedStates, certify_states};
 use super::run::{Watched, watched_question};
-use crate::say::{self, mu_text};
+use crate::say::{self, number_text};
 use mceip_check::certificate::Certificate;
 use mceip_engine::analysis::{
     Analysis, AnalysisError, AnalysisOptions, Divergence, Mode, Proof, Verdict, analyse,
@@ -555,7 +555,7 @@ impl<'a> FindOwnCritical<'a> {
         count: usize,
         watch: &Watch<'_>,
     ) -> Result<Option<FrictionPoint>, Error> {
-        let stage = format!("path at mu = {}", mu_text(&mu));
+        let stage = format!("path at mu = {}", number_text(&mu));
         let say = |stage: &str| {
             let mut progress = Progress::stage(stage);
             progress.done = count as u64;
@@ -709,7 +709,7 @@ mod tests {
     fn a_grid_has_its_ends_and_short_numbers_between() {
         let grid = FrictionGrid::new(rational(1, 10), rational(1, 3)).unwrap();
         let grid = grid.with_parts(3).unwrap();
-        let values: Vec<String> = grid.values().iter().map(mu_text).collect();
+        let values: Vec<String> = grid.values().iter().map(number_text).collect();
         assert_eq!(values, ["0.1", "0.18", "0.26", "1/3"]);
     }
 

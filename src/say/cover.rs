@@ -1,6 +1,6 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
-use super::{counted, slip_text};
+use super::{counted, range_text, slip_text, window_text};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::search::complete::continua::joined;
 use mceip_exact::{Interval, enclosing_decimals};
@@ -43,7 +43,7 @@ pub(crate) fn text(problem: &Problem, cover: &AcceptedCover) -> String {
 
 /// The last line: is the set complete, and how large is it?
 fn verdict_text(problem: &Problem, cover: &AcceptedCover) -> String {
-    let window = problem.window();
+    let window = window_text(problem.window());
     let leaves = cover.leaves;
     let open = cover.open.len();
     let count = count_text(cover);
@@ -78,15 +78,11 @@ fn count_text(cover: &AcceptedCover) -> String {
 }
 
 fn open_text(word: &str, region: &OpenRegion) -> String {
-    let max = match &region.max {
-        Some(max) => format!("{max}]"),
-        None => "infinity)".into(),
-    };
-
-    format!(
-        "{word} in [{}, {max}, moving {:?}, undecided {:?}",
-        region.min, region.moving, region.undecided
-    )
+    let range = range_text(&region.min, region.max.as_ref());
+    let OpenRegion {
+        moving, undecided, ..
+    } = region;
+    format!("{word} in {range}, moving {moving:?}, undecided {undecided:?}")
 }
 
 fn family_text(problem: &Problem, family: &SolutionFamily) -> String {

@@ -12,7 +12,7 @@ pub(crate) mod search;
 pub(crate) mod stretches;
 
 use mceip_exact::{Rational, nearest_decimal, parse};
-use mceip_model::{Body, Problem};
+use mceip_model::{Body, Problem, Window};
 
 /// What looked wrong when a file was made, a line each.
 pub(crate) fn warnings_text(warnings: &[String]) -> String {
@@ -25,13 +25,27 @@ pub(crate) fn warnings_text(warnings: &[String]) -> String {
     out
 }
 
-/// A mu as a decimal where it is a short one, else as a fraction.
-pub(crate) fn mu_text(mu: &Rational) -> String {
-    let decimal = nearest_decimal(mu, 15);
-    if parse(&decimal).is_ok_and(|value| value == *mu) {
+/// A number as a decimal where a short one is exact, else as a fraction.
+pub(crate) fn number_text(value: &Rational) -> String {
+    let decimal = nearest_decimal(value, 17);
+    if parse(&decimal).is_ok_and(|read| read == *value) {
         decimal
     } else {
-        mu.to_string()
+        value.to_string()
+    }
+}
+
+/// "[0, 2.5]" or "[0, infinity)".
+pub(crate) fn window_text(window: &Window) -> String {
+    range_text(window.min(), window.max())
+}
+
+/// The same of a part of a window.
+pub(crate) fn range_text(min: &Rational, max: Option<&Rational>) -> String {
+    let min = number_text(min);
+    match max {
+        Some(max) => format!("[{min}, {}]", number_text(max)),
+        None => format!("[{min}, infinity)"),
     }
 }
 

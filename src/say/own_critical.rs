@@ -1,7 +1,7 @@
 //! The own critical friction of a body under loads in words, as a table and as JSON.
 
 use super::path::{LETTERS, amount_text, end_text, states_json};
-use super::{mu_text, warnings_text};
+use super::{number_text, warnings_text};
 use crate::front::{
     Bracket, ExaminedEquilibrium, FrictionAnswer, FrictionPoint, OwnCritical, PathPlace,
 };
@@ -55,7 +55,7 @@ fn refused_text(own: &OwnCritical) -> String {
     for point in &own.points {
         for examined in &point.examined {
             if let Err(why) = &examined.divergence {
-                let mu = mu_text(point.friction());
+                let mu = number_text(point.friction());
                 let place = place_text(examined.place);
                 let states = examined.equilibrium.picture();
                 out += &format!("NOT DECIDED at mu = {mu}, {place}, states {states}: {why}\n");
@@ -105,7 +105,7 @@ fn headline(own: &OwnCritical, names: &[&str]) -> String {
     };
     match own.bracket() {
         Bracket::Between(absent, critical) => {
-            let [lo, hi] = [absent, critical].map(|point| mu_text(point.friction()));
+            let [lo, hi] = [absent, critical].map(|point| number_text(point.friction()));
             format!(
                 "OWN CRITICAL FRICTION: between {lo} and {hi}, the first change among the mu \
                  examined. At mu = {lo} {none_diverges}; at mu = {hi} {}.{}{}",
@@ -116,7 +116,7 @@ fn headline(own: &OwnCritical, names: &[&str]) -> String {
         }
         Bracket::AtMost(first) => format!(
             "OWN CRITICAL FRICTION: not above {}: at this mu {}.{}{}",
-            mu_text(first.friction()),
+            number_text(first.friction()),
             critical_text(first, names),
             uncertified_text(&[first]),
             undecided_text(own, first)
@@ -190,7 +190,9 @@ fn undecided_text(own: &OwnCritical, critical: &FrictionPoint) -> String {
     let before = own.points.iter();
     let before = before.filter(|point| point.friction() < critical.friction());
     let undecided = before.filter(|point| point.answer().is_undecided());
-    let undecided: Vec<String> = undecided.map(|point| mu_text(point.friction())).collect();
+    let undecided: Vec<String> = undecided
+        .map(|point| number_text(point.friction()))
+        .collect();
     if undecided.is_empty() {
         return String::new();
     }
@@ -211,7 +213,7 @@ fn uncertified_text(points: &[&FrictionPoint]) -> &'static str {
 
 /// The frozen critical friction, and why it is another number.
 fn frozen_text(frozen: &Analysis) -> String {
-    let mu = mu_text(&frozen.friction);
+    let mu = number_text(&frozen.friction);
     let bracket = bracket_text(frozen);
 
     format!(
@@ -243,7 +245,7 @@ fn rounded_down(mu: &Rational) -> String {
 }
 
 fn cells(point: &FrictionPoint, names: &[&str]) -> Vec<String> {
-    let mu = mu_text(point.friction());
+    let mu = number_text(point.friction());
     let answer = point.answer();
     let none = || String::from("-");
     let examined = match (point.deciding(), answer) {
@@ -284,11 +286,11 @@ pub(crate) fn json_of(own: &OwnCritical) -> Value {
     let names = own.loads().step_names();
     let (word, ends) = match own.bracket() {
         Bracket::Between(absent, critical) => {
-            let [absent, critical] = [absent, critical].map(|point| mu_text(point.friction()));
+            let [absent, critical] = [absent, critical].map(|point| number_text(point.friction()));
             ("between", json!({ "absent": absent, "critical": critical }))
         }
         Bracket::AtMost(first) => {
-            let critical = mu_text(first.friction());
+            let critical = number_text(first.friction());
             ("at_most", json!({ "absent": null, "critical": critical }))
         }
         Bracket::Undecided => ("undecided", Value::Null),
@@ -308,7 +310,7 @@ pub(crate) fn json_of(own: &OwnCritical) -> Value {
 
 fn frozen_json(frozen: &Analysis) -> Value {
     let mut out = held_json(frozen);
-    out["states_of"] = json!(mu_text(&frozen.friction));
+    out["states_of"] = json!(number_text(&frozen.friction));
     out
 }
 
@@ -325,7 +327,7 @@ pub(super) fn held_json(held: &Analysis) -> Value {
 }
 
 fn point_json(point: &FrictionPoint, names: &[&str], candidates: &[Particle]) -> Value {
-    let mu = mu_text(point.friction());
+    let mu = number_text(point.friction());
     let mut out = match (point.deciding(), point.answer()) {
         (Some(examined), FrictionAnswer::Equilibrium(verdict)) => {
             examined_json(examined, verdict, point)

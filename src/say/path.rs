@@ -2,7 +2,7 @@
 //! stretches for programs.
 
 use super::stretches::table_of;
-use super::{counted, mu_text, warnings_text};
+use super::{counted, number_text, warnings_text};
 use crate::front::LoadPath;
 use mceip_engine::report::fixed_decimals;
 use mceip_exact::to_f64;
@@ -15,7 +15,7 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     let path = followed.as_path();
     let file = followed.loads().as_file();
     let name = file.name.as_deref().unwrap_or("a body under loads");
-    let mu = mu_text(&path.steps.friction);
+    let mu = number_text(&path.steps.friction);
     let warnings = warnings_text(&file.warnings);
     let candidates = followed.loads().candidates();
     let table = table_of(path, &followed.loads().step_names(), candidates);

@@ -2,7 +2,7 @@
 
 use super::own_critical::{bracket_text, held_json};
 use super::path::amount_text;
-use super::{counted, mu_text};
+use super::{counted, number_text};
 use crate::front::{PathAnalysis, StateAnalysis};
 use mceip_engine::analysis::Verdict;
 use mceip_engine::report::{Table, six_digits};
@@ -87,7 +87,7 @@ pub(crate) fn verdict_text(found: &PathAnalysis) -> String {
     }
 
     let path = found.path().as_path();
-    let mu = mu_text(&path.steps.friction);
+    let mu = number_text(&path.steps.friction);
     let with = |verdict| {
         let states = found.states.iter();
         states.filter(move |state| state.verdict() == verdict)

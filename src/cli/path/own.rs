@@ -7,7 +7,7 @@ use crate::picture::{
     Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange, Section, branch_picture,
     presence_picture,
 };
-use crate::say::mu_text;
+use crate::say::number_text;
 use crate::say::own_critical::{HEADER, headlines, rows_of};
 use crate::say::path::LETTERS;
 use crate::{
@@ -119,7 +119,7 @@ fn keep_proof(folder: &Folder, name: &str, proof: &Proof) {
 
 /// The name of the files of a place on the path at a mu.
 fn name_of(mu: &Rational, place: PathPlace) -> String {
-    let mu = mu_text(mu).replace('/', "over");
+    let mu = number_text(mu).replace('/', "over");
     match place {
         PathPlace::End => format!("mu-{mu}"),
         PathPlace::Inside(stretch) => format!("mu-{mu}-stretch-{stretch:03}"),
