@@ -328,6 +328,7 @@ class Mode:
         slipping: particles that slip, by their place in the list of contacts.
         sticking: particles in impending slip that do not move.
         v: displacements over the degrees of freedom; the slip rates sum to one.
+        names: the names of all particles, or their places as words.
     """
 
     lambda2: Interval
@@ -335,11 +336,16 @@ class Mode:
     slipping: list[int]
     sticking: list[int]
     v: Vector = field(compare=False)
+    names: list[str]
 
     def __repr__(self) -> str:
+        slipping, sticking = (
+            listed([self.names[place] for place in places])
+            for places in (self.slipping, self.sticking)
+        )
         return two_lines(
             f"Mode growing at {self.growth_rate:.6g} 1/s, lambda^2 {placed(self.lambda2)}",
-            f"contacts that slip: {indices(self.slipping)}; that do not: {indices(self.sticking)}",
+            f"contacts that slip: {slipping}; that do not: {sticking}",
         )
 
 
@@ -420,7 +426,8 @@ class Analysis:
     @property
     def modes(self) -> list[Mode]:
         """The diverging motions at the friction coefficient asked for."""
-        return [mode_of(mode) for mode in self.answer["divergence"]["modes"]]
+        names = self.answer["particles"]
+        return [mode_of(mode, names) for mode in self.answer["divergence"]["modes"]]
 
     @property
     def critical(self) -> CriticalFriction:
@@ -546,13 +553,14 @@ def analysis_of(answer: dict[str, Any]) -> Analysis:
     return Analysis(answer["answer"], proofs)
 
 
-def mode_of(answer: dict[str, Any]) -> Mode:
+def mode_of(answer: dict[str, Any], names: list[str]) -> Mode:
     return Mode(
         lambda2=interval_of(answer["lambda2"]),
         growth_rate=answer["growth_rate"],
         slipping=answer["slipping"],
         sticking=answer["sticking"],
         v=np.array(answer["v"]),
+        names=names,
     )
 
 

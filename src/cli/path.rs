@@ -15,6 +15,7 @@ use super::output::{Folder, Output};
 use super::pictures::{self, PictureArgs, PictureFolders};
 use crate::front::require_mass;
 use crate::say::counted;
+use crate::say::path::candidate_name;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical, PathAnalysis};
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::run::{Kept, Progress, Watch};
@@ -419,6 +420,7 @@ impl PathOutcome<'_> {
             "mu": self.path().steps.friction.to_string(),
             "condensed": if self.followed.is_in_doubles() { "in doubles" } else { "exactly" },
             "steps": self.names,
+            "candidates": self.candidate_names(),
             "intervals": self.followed.to_json(),
             "end": self.followed.end_text(),
             "slides": self.path().slides(),
@@ -444,6 +446,14 @@ impl PathOutcome<'_> {
         }
 
         out
+    }
+
+    /// The names of the candidates in the order of the file, as the table of events calls them.
+    fn candidate_names(&self) -> Vec<String> {
+        let candidates = self.file().body.system().particles();
+        (0..candidates.len())
+            .map(|node| candidate_name(candidates, node))
+            .collect()
     }
 
     /// The problem of each stretch with impending slip; those of an earlier path go. One that is

@@ -92,8 +92,15 @@ pub(crate) fn end_text(path: &LoadingPath, candidates: &[Particle]) -> String {
     }
 }
 
-/// The bounds that are reached at an event, candidate by candidate: by its name, or by its number
-/// from 1.
+/// A candidate by its name, or by its number from 1.
+pub(crate) fn candidate_name(candidates: &[Particle], node: usize) -> String {
+    match &candidates[node].name {
+        Some(name) => name.clone(),
+        None => format!("node {}", node + 1),
+    }
+}
+
+/// The bounds that are reached at an event, candidate by candidate.
 pub(crate) fn causes_text(causes: &[Bound], candidates: &[Particle]) -> String {
     if causes.is_empty() {
         return "the step begins".into();
@@ -101,10 +108,7 @@ pub(crate) fn causes_text(causes: &[Bound], candidates: &[Particle]) -> String {
 
     let mut reached = Vec::new();
     for bound in causes {
-        let who = match &candidates[bound.node()].name {
-            Some(name) => name.clone(),
-            None => format!("node {}", bound.node() + 1),
-        };
+        let who = candidate_name(candidates, bound.node());
         let text = format!("{who}: {}", bound.word());
         // At the tip of the cone both its sides are reached.
         if !reached.contains(&text) {

@@ -263,6 +263,7 @@ impl Analysis {
             "problem_sha256": self.problem_sha256,
             "friction": self.friction.to_string(),
             "sizes": self.sizes_json(),
+            "particles": self.particles,
             "units": "lambda^2 in 1/s^2 and growth rates in 1/s for K and M in consistent units",
             "interrupted": self.interrupted,
             "summary": self.summary(),
