@@ -6,7 +6,14 @@
 //! - F_i(z) = 0 where z_i lies strictly inside,
 //! - F_i(z) <= 0 where z_i = u_i.
 //!
-//! [`Mcp`] is the interface of a problem, [`LinearMcp`] the problem with F(z) = M z + q.
+//! [`Mcp`] is the interface of a problem, [`FunctionMcp`] one made of closures, [`LinearMcp`] the
+//! problem with F(z) = M z + q. [`check_jacobian`] holds a Jacobian against finite differences.
+
+mod differences;
+mod function;
+
+pub use differences::{JacobianError, check_jacobian, difference_jacobian};
+pub use function::FunctionMcp;
 
 use nalgebra::DMatrix;
 
@@ -22,7 +29,36 @@ pub trait Mcp {
     /// Writes F(z) into `f`, both of length n.
     fn function(&self, z: &[f64], f: &mut [f64]);
     /// Writes the n x n Jacobian F'(z) into `j`, every entry.
-    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>);
+    ///
+    /// A problem that does not write it is asked for its [`Mcp::entries`]; one that has neither is
+    /// differentiated by differences ([`difference_jacobian`]: 2n further values of F).
+    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
+        let mut entries = Vec::new();
+        if self.entries(z, &mut entries) {
+            scatter(&entries, j);
+        } else {
+            difference_jacobian(self, z, j);
+        }
+    }
+
+    /// Adds the entries (row, column, value) of a sparse F'(z) to an empty list and says true;
+    /// false, as it is unless written, if F' is to be taken as a dense matrix. Entries of one place
+    /// add up. A problem gives them at every point or at none.
+    fn entries(&self, z: &[f64], entries: &mut Vec<(usize, usize, f64)>) -> bool {
+        let _ = (z, entries);
+        false
+    }
+}
+
+/// Writes a matrix of these entries; NaN in all places if one of them lies beyond its order.
+fn scatter(entries: &[(usize, usize, f64)], j: &mut DMatrix<f64>) {
+    j.fill(0.0);
+    for &(row, col, value) in entries {
+        match j.get_mut((row, col)) {
+            Some(entry) => *entry += value,
+            None => return j.fill(f64::NAN),
+        }
+    }
 }
 
 /// A linear MCP: F(z) = M z + q.

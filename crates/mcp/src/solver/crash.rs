@@ -13,11 +13,11 @@ mod step;
 
 use super::dense::Lu;
 use super::evaluation::{Evaluated, Point};
+use super::jacobian::JacobianMatrix;
 use super::log::Log;
 use super::outcome::{StepKind, Termination};
 use super::tolerance::{CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST};
 use crate::mcp::Mcp;
-use nalgebra::DMatrix;
 use std::mem::replace;
 
 pub(super) use semismooth::{Ending, semismooth};
@@ -106,7 +106,7 @@ impl CrashStorage {
 
     /// Newton's direction in the inactive components; a singular factor is perturbed proximally,
     /// with a term that vanishes with the merit. Says if there is one, and the term used.
-    fn newton_direction(&mut self, jacobian: &DMatrix<f64>, point: &Point) -> (bool, f64) {
+    fn newton_direction(&mut self, jacobian: &JacobianMatrix, point: &Point) -> (bool, f64) {
         self.inactive.clear();
         for (i, active) in self.active.iter().enumerate() {
             if !active {
@@ -132,7 +132,7 @@ impl CrashStorage {
     }
 
     /// Solves (F'_II + proximal I) d = -F_I into the step; says if there is a solution.
-    fn solve(&mut self, jacobian: &DMatrix<f64>, point: &Point, proximal: f64) -> bool {
+    fn solve(&mut self, jacobian: &JacobianMatrix, point: &Point, proximal: f64) -> bool {
         let inactive = &self.inactive;
         let system = InsideSystem {
             jacobian,
@@ -147,8 +147,8 @@ impl CrashStorage {
 
 /// The proximal term for a singular F': CRASH_PROXIMAL sqrt(Psi) within its limits, times the
 /// largest entry of F', or absolute where F' is zero.
-fn proximal_term(jacobian: &DMatrix<f64>, merit: f64) -> f64 {
-    let largest = jacobian.amax();
+fn proximal_term(jacobian: &JacobianMatrix, merit: f64) -> f64 {
+    let largest = jacobian.largest();
     let size = if largest > 0.0 { largest } else { 1.0 };
 
     let relative = CRASH_PROXIMAL * merit.sqrt();
@@ -161,7 +161,7 @@ mod tests {
     use super::super::tolerance::ARMIJO;
     use super::*;
     use crate::mcp::LinearMcp;
-    use nalgebra::{DVector, dmatrix};
+    use nalgebra::{DMatrix, DVector, dmatrix};
 
     fn crashed(m: DMatrix<f64>, q: Vec<f64>, start: &[f64]) -> (Point, usize) {
         let lcp = LinearMcp::lcp(m, q).unwrap();
@@ -215,7 +215,7 @@ mod tests {
         };
 
         assert_eq!(
-            storage.newton_direction(&dmatrix![0.0], &point),
+            storage.newton_direction(&dmatrix![0.0].into(), &point),
             (true, CRASH_PROXIMAL)
         );
         assert_eq!(storage.direction, [-2.0 / CRASH_PROXIMAL]);
@@ -264,7 +264,7 @@ mod tests {
     /// The proximal term: CRASH_PROXIMAL sqrt(merit) between its limits, times the largest entry.
     #[test]
     fn the_proximal_term_vanishes_with_the_merit() {
-        let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
+        let singular = dmatrix![0.0, 0.0; 0.0, 8.0].into();
         let direction_at = |merit: f64| {
             let mut storage = CrashStorage {
                 active: vec![false; 2],

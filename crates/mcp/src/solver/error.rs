@@ -27,6 +27,18 @@ pub enum SolverError {
         /// Its value.
         got: f64,
     },
+    /// A point that must lie within the bounds does not.
+    #[error("expected a start within [{lower}, {upper}] at {index}, got {got}")]
+    StartOutside {
+        /// The component.
+        index: usize,
+        /// Its lower bound.
+        lower: f64,
+        /// Its upper bound.
+        upper: f64,
+        /// Its value.
+        got: f64,
+    },
     /// An option is out of range.
     #[error("expected option {name} {expected}, got {got}")]
     Option {

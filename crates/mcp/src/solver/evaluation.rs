@@ -7,8 +7,9 @@
 //! to stop, not an error: the point has an infinite merit then.
 
 use super::fischer;
-use super::jacobian::square;
+use super::jacobian::{JacobianMatrix, SparseColumns, square};
 use super::outcome::{Counters, NonFinite, Termination};
+use super::tolerance::DENSE_ORDER;
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
 
@@ -25,6 +26,7 @@ pub(super) struct Point {
 pub(super) struct Pool {
     points: Vec<Point>,
     matrices: Vec<DMatrix<f64>>,
+    entries: Vec<(usize, usize, f64)>,
 }
 
 /// A problem whose evaluations are counted.
@@ -33,6 +35,8 @@ pub(super) struct Evaluated<'a, P: Mcp + ?Sized> {
     pub(super) counters: Counters,
     /// The last value of F that was not finite, until somebody takes it.
     pub(super) not_finite: Option<Termination>,
+    /// Has the problem given its last Jacobian by its entries?
+    is_sparse: bool,
     pool: Pool,
 }
 
@@ -47,6 +51,7 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
             problem,
             counters: Counters::default(),
             not_finite: None,
+            is_sparse: false,
             pool,
         }
     }
@@ -106,70 +111,77 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     }
 
     /// Gives a matrix back.
-    pub(super) fn recycle_matrix(&mut self, matrix: DMatrix<f64>) {
-        self.pool.matrices.push(matrix);
+    pub(super) fn recycle_matrix(&mut self, matrix: JacobianMatrix) {
+        if let JacobianMatrix::Dense(matrix) = matrix {
+            self.pool.matrices.push(matrix);
+        }
+    }
+
+    /// Is F' sparse and of so large an order that no dense matrix of it is made, which paths and
+    /// curves need? Known once F' was asked for.
+    pub(super) fn is_too_large_for_paths(&self) -> bool {
+        self.is_sparse && self.problem.dimension() > DENSE_ORDER
     }
 
     /// F' at a point.
     ///
     /// # Errors
     /// [`Termination::JacobianShape`]; [`Termination::NonFinite`] naming the first entry.
-    pub(super) fn jacobian(&mut self, point: &Point) -> Result<DMatrix<f64>, Termination> {
+    pub(super) fn jacobian(&mut self, point: &Point) -> Result<JacobianMatrix, Termination> {
         let n = point.z.len();
-        let jacobian = self.raw_jacobian(point);
-        let (rows, cols) = jacobian.shape();
+        let jacobian = self.raw_jacobian(point)?;
 
-        if rows != n || cols != n {
+        if let JacobianMatrix::Dense(matrix) = &jacobian
+            && matrix.shape() != (n, n)
+        {
+            let (rows, cols) = matrix.shape();
             return Err(Termination::JacobianShape { rows, cols });
         }
 
-        if is_finite(&jacobian) {
+        let Some((row, col)) = jacobian.first_not_finite() else {
             return Ok(jacobian);
-        }
-
-        let (row, col) = first_not_finite(&jacobian).unwrap_or_default();
+        };
         self.recycle_matrix(jacobian);
         Err(Termination::NonFinite(NonFinite::Jacobian { row, col }))
     }
 
-    /// F' at a point, n x n and finite or not: what a callback that has resized it left out is NaN.
-    pub(super) fn any_jacobian(&mut self, point: &Point) -> DMatrix<f64> {
+    /// F' at a point, n x n and finite or not: what a callback has left out is NaN, all of it where
+    /// an entry lies beyond the matrix.
+    pub(super) fn any_jacobian(&mut self, point: &Point) -> JacobianMatrix {
         let n = point.z.len();
-        square(self.raw_jacobian(point), n)
+        match self.raw_jacobian(point) {
+            Ok(JacobianMatrix::Dense(matrix)) => square(matrix, n).into(),
+            Ok(sparse) => sparse,
+            Err(_) => DMatrix::from_element(n, n, f64::NAN).into(),
+        }
     }
 
-    /// F' at a point in whatever shape the callback has left it.
-    fn raw_jacobian(&mut self, point: &Point) -> DMatrix<f64> {
+    /// F' at a point, a dense one in whatever shape the callback has left it.
+    ///
+    /// # Errors
+    /// [`Termination::JacobianShape`] for entries beyond the matrix.
+    fn raw_jacobian(&mut self, point: &Point) -> Result<JacobianMatrix, Termination> {
         self.counters.jacobians += 1;
         let n = point.z.len();
+        let z = point.z.as_slice();
+
+        let entries = &mut self.pool.entries;
+        entries.clear();
+        self.is_sparse = self.problem.entries(z, entries);
+        if self.is_sparse {
+            let matrix = SparseColumns::new(n, entries);
+            return matrix
+                .map(JacobianMatrix::Sparse)
+                .map_err(|(rows, cols)| Termination::JacobianShape { rows, cols });
+        }
+
         let unused = self.pool.matrices.pop().filter(|j| j.shape() == (n, n));
         let mut jacobian = unused.unwrap_or_else(|| DMatrix::zeros(n, n));
 
         jacobian.as_mut_slice().fill(0.0);
-        self.problem.jacobian(point.z.as_slice(), &mut jacobian);
-        jacobian
+        self.problem.jacobian(z, &mut jacobian);
+        Ok(JacobianMatrix::Dense(jacobian))
     }
-}
-
-/// Are all entries finite? All are looked at, which needs no branch for each.
-fn is_finite(matrix: &DMatrix<f64>) -> bool {
-    let mut is_finite = true;
-    for value in matrix.as_slice() {
-        is_finite &= value.is_finite();
-    }
-    is_finite
-}
-
-/// Row and column of the first entry, row by row, that is not finite.
-fn first_not_finite(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
-    for row in 0..matrix.nrows() {
-        for col in 0..matrix.ncols() {
-            if !matrix[(row, col)].is_finite() {
-                return Some((row, col));
-            }
-        }
-    }
-    None
 }
 
 impl Point {
@@ -197,6 +209,7 @@ mod tests {
     use super::super::jacobian::jacobian_at;
     use super::super::probe::{bounded, free};
     use super::*;
+    use crate::mcp::FunctionMcp;
     use nalgebra::{dmatrix, dvector};
 
     #[test]
@@ -225,8 +238,9 @@ mod tests {
         assert_eq!(&copy.z, &inside.z);
         assert_eq!(&copy.f, &inside.f);
         assert_eq!(copy.merit, inside.merit);
-        assert_eq!(e.jacobian(&point).unwrap(), dmatrix![0.0, 7.0; 0.0, 0.0]);
-        assert_eq!(e.any_jacobian(&point), dmatrix![0.0, 7.0; 0.0, 0.0]);
+        let expected = JacobianMatrix::from(dmatrix![0.0, 7.0; 0.0, 0.0]);
+        assert_eq!(e.jacobian(&point).unwrap(), expected);
+        assert_eq!(e.any_jacobian(&point), expected);
         assert_eq!(e.counters.functions, 3);
         assert_eq!(e.counters.jacobians, 2);
     }
@@ -237,16 +251,16 @@ mod tests {
         let p = free(2, |z, f| f[0] += z[0], |_, j| j[(0, 0)] += 1.0);
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![3.0, 4.0]);
-        let jacobian = e.jacobian(&point).unwrap();
+        let jacobian = e.jacobian(&point).unwrap().into_dense();
         let at = (point.z.as_ptr(), jacobian.as_ptr());
         e.recycle(point);
-        e.recycle_matrix(jacobian);
+        e.recycle_matrix(jacobian.into());
 
         assert_eq!(e.pool.points.len(), 1);
         assert_eq!(e.pool.matrices.len(), 1);
 
         let point = e.point(&dvector![5.0, 6.0]);
-        let jacobian = e.jacobian(&point).unwrap();
+        let jacobian = e.jacobian(&point).unwrap().into_dense();
         assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
         assert_eq!(e.pool.points.len(), 0);
         assert_eq!(e.pool.matrices.len(), 0);
@@ -254,7 +268,7 @@ mod tests {
         assert_eq!(&jacobian, &dmatrix![1.0, 0.0; 0.0, 0.0]);
 
         e.recycle(point);
-        e.recycle_matrix(jacobian);
+        e.recycle_matrix(jacobian.into());
         let (pool, counters) = e.into_parts();
 
         assert_eq!(counters.functions, 2);
@@ -265,7 +279,7 @@ mod tests {
         let point = e.point(&dvector![5.0]);
 
         assert_eq!(point.z.len(), 1);
-        assert_eq!(e.jacobian(&point).unwrap().shape(), (1, 1));
+        assert_eq!(e.jacobian(&point).unwrap().into_dense().shape(), (1, 1));
     }
 
     #[test]
@@ -323,12 +337,35 @@ mod tests {
             Err(Termination::JacobianShape { rows: 1, cols: 2 })
         );
 
-        for j in [e.any_jacobian(&point), jacobian_at(&p, &[1.0, 1.0])] {
+        let any = e.any_jacobian(&point).into_dense();
+        for j in [any, jacobian_at(&p, &[1.0, 1.0])] {
             assert!(j.shape() == (2, 2));
             assert!(j[(0, 0)] == 5.0);
             assert!(j[(0, 1)] == 5.0);
             assert!(j[(1, 0)].is_nan());
             assert!(j[(1, 1)].is_nan());
         }
+    }
+
+    /// Entries are a sparse matrix, without a dense one; one beyond the order is told.
+    #[test]
+    fn entries_are_a_sparse_jacobian() {
+        let line = || FunctionMcp::new(vec![0.0; 2], vec![9.0; 2], |z, f| f.copy_from_slice(z));
+        let p = line().with_entries(|_, entries| entries.push((1, 0, 5.0)));
+        let mut e = Evaluated::new(&p);
+        let point = e.point(&dvector![1.0, 1.0]);
+        let jacobian = e.jacobian(&point).unwrap();
+
+        assert!(matches!(jacobian, JacobianMatrix::Sparse(_)));
+        assert_eq!(jacobian.into_dense(), dmatrix![0.0, 0.0; 5.0, 0.0]);
+
+        let beyond = line().with_entries(|_, entries| entries.push((1, 4, 5.0)));
+        let mut e = Evaluated::new(&beyond);
+        let point = e.point(&dvector![1.0, 1.0]);
+        assert_eq!(
+            e.jacobian(&point),
+            Err(Termination::JacobianShape { rows: 2, cols: 5 })
+        );
+        assert!(e.any_jacobian(&point).first_not_finite().is_some());
     }
 }

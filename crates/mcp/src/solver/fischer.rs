@@ -6,9 +6,10 @@
 //! where Phi is not, which makes it the *merit* by which steps are judged. Called by `evaluation`,
 //! `gradient`, `residual` and `crash/semismooth`.
 
+use super::jacobian::JacobianMatrix;
 use super::tolerance::SQUARE_SAFE;
 use crate::mcp::Mcp;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// One component Phi_i with an element of its generalised derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +86,7 @@ pub(super) fn gradient<P: Mcp + ?Sized>(
     problem: &P,
     z: &[f64],
     f: &[f64],
-    jacobian: &DMatrix<f64>,
+    jacobian: &JacobianMatrix,
     storage: &mut GradientStorage<'_>,
 ) {
     let lower = problem.lower();
@@ -97,8 +98,8 @@ pub(super) fn gradient<P: Mcp + ?Sized>(
         storage.work[i] = phi.by_f * phi.value;
     }
 
-    for (entry, column) in storage.gradient.iter_mut().zip(jacobian.column_iter()) {
-        *entry += column.dot(storage.work);
+    for (j, entry) in storage.gradient.iter_mut().enumerate() {
+        *entry += jacobian.column_times(j, storage.work);
     }
 }
 
@@ -240,7 +241,13 @@ mod tests {
             work: &mut DVector::zeros(4),
         };
         let f = function(&z);
-        gradient(&p, z.as_slice(), f.as_slice(), &m, &mut storage);
+        gradient(
+            &p,
+            z.as_slice(),
+            f.as_slice(),
+            &m.clone().into(),
+            &mut storage,
+        );
 
         for i in 0..4 {
             let merit_moved_by = |h: f64| {

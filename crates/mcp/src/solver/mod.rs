@@ -64,6 +64,7 @@ pub use outcome::{Counters, MajorRecord, NonFinite, Outcome, PathRecord, StepKin
 pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;
 pub use reuse::{Ended, Solver};
+pub(crate) use validate::check_point;
 
 use crate::mcp::Mcp;
 

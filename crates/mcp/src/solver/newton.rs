@@ -24,7 +24,7 @@ use super::residual::Residuals;
 use super::restart::Attempt;
 use super::search::NonMonotoneRule;
 use super::structure::unmatched;
-use super::tolerance::{CURVE_TRIALS, MERIT_SLACK};
+use super::tolerance::{CURVE_TRIALS, DENSE_ORDER, MERIT_SLACK};
 use super::{crash, path};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
@@ -125,7 +125,12 @@ impl<'a, P: Mcp + ?Sized> NewtonRun<'a, P> {
 
     /// The better reason where the zeros of F' at the start explain why nothing got on.
     fn structural(&mut self, start: &Point, reason: Termination) -> Option<Termination> {
-        let is_vague = matches!(reason, Termination::NoProgress | Termination::SingularBasis);
+        let is_vague = matches!(
+            reason,
+            Termination::NoProgress
+                | Termination::SingularBasis
+                | Termination::TooLargeForPaths { .. }
+        );
         if !is_vague {
             return None;
         }
@@ -183,7 +188,7 @@ impl<'a, P: Mcp + ?Sized> NewtonRun<'a, P> {
     /// To the first solution on the curve of the Newton homotopy from the start, down and then up,
     /// and from there by Newton; `None` if neither way meets one, or none may be followed.
     fn along_curves(&mut self, start: &Point, best: &mut Point) -> Option<Termination> {
-        if self.options.curve_step_limit == 0 {
+        if self.options.curve_step_limit == 0 || self.problem.is_too_large_for_paths() {
             return None;
         }
 
@@ -211,7 +216,9 @@ impl<'a, P: Mcp + ?Sized> NewtonRun<'a, P> {
     /// One attempt; `best` is left at the point of least merit, or at the one within the tolerance.
     fn attempt(&mut self, start: &Point, attempt: Attempt, best: &mut Point) -> Termination {
         let mut point = self.problem.copy(start);
-        if attempt.crash {
+        // Without paths a crash is all there is, and from the same start it would go the same way.
+        let has_no_paths = self.problem.is_too_large_for_paths() && attempt.shift > 0.0;
+        if attempt.crash || has_no_paths {
             point = match self.crash(point) {
                 Ok(point) => point,
                 Err(reason) => return reason,
@@ -331,7 +338,15 @@ impl<'a, P: Mcp + ?Sized> NewtonRun<'a, P> {
         search: &mut NonMonotoneRule,
     ) -> Result<Point, Termination> {
         self.problem.counters.majors += 1;
-        let mut m = self.problem.jacobian(point)?;
+        let jacobian = self.problem.jacobian(point)?;
+        if self.problem.is_too_large_for_paths() {
+            return Err(Termination::TooLargeForPaths {
+                order: self.problem.problem.dimension(),
+                limit: DENSE_ORDER,
+            });
+        }
+
+        let mut m = jacobian.into_dense();
         let proximal = if attempt.proximal > 0.0 {
             attempt.proximal * m.amax() * point.merit.sqrt().min(1.0)
         } else {
@@ -342,7 +357,7 @@ impl<'a, P: Mcp + ?Sized> NewtonRun<'a, P> {
 
         let mut paths = take(&mut self.space.paths);
         let count = self.follow_paths(&m, attempt.first, point, &mut paths);
-        self.problem.recycle_matrix(m);
+        self.problem.recycle_matrix(m.into());
         let step = self.choose(point, &paths[..count], search);
 
         let kind = step.as_ref().map_or(StepKind::Failed, |(_, kind)| *kind);

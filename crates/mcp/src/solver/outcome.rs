@@ -23,6 +23,15 @@ pub enum NonFinite {
     },
 }
 
+impl std::fmt::Display for NonFinite {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NonFinite::Function { row } => write!(out, "F[{row}]"),
+            NonFinite::Jacobian { row, col } => write!(out, "F'[{row}][{col}]"),
+        }
+    }
+}
+
 /// Why a run stopped. A reason, never a verdict: whether the point is a solution is decided
 /// elsewhere, exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -54,6 +63,14 @@ pub enum Termination {
         /// Its columns.
         cols: usize,
     },
+    /// The crash of the last attempt did not converge, and paths, which would follow, need a dense
+    /// matrix: a problem that gives its Jacobian by entries is too large for one.
+    TooLargeForPaths {
+        /// Number of unknowns.
+        order: usize,
+        /// That of the largest problem with a sparse Jacobian that paths are followed of.
+        limit: usize,
+    },
     /// No attempt got on, and the Jacobian at the start is singular by its zeros alone, among the
     /// unknowns strictly between their bounds there: no permutation pairs this row and this column
     /// with non-zeros.
@@ -63,6 +80,38 @@ pub enum Termination {
         /// Column of F'.
         col: usize,
     },
+}
+
+impl std::fmt::Display for Termination {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Termination::ToleranceReached => write!(out, "the residuals are within the tolerance"),
+            Termination::MajorLimit => write!(out, "the limit on linearisations is reached"),
+            Termination::MinorLimit => write!(out, "the limit on pivots of a path is reached"),
+            Termination::CumulativeLimit => write!(out, "the limit on pivots of a run is reached"),
+            Termination::Ray => write!(out, "the last path ended on a ray"),
+            Termination::Cycle => write!(out, "the last path cycled"),
+            Termination::SingularBasis => write!(out, "a basis of the last path was singular"),
+            Termination::NoProgress => write!(out, "no step from the last points was acceptable"),
+            Termination::NonFinite(place) => write!(out, "expected a finite {place}"),
+            Termination::JacobianShape { rows, cols } => {
+                write!(
+                    out,
+                    "expected a square Jacobian, got {rows} rows and {cols} columns"
+                )
+            }
+            Termination::TooLargeForPaths { order, limit } => write!(
+                out,
+                "Newton's method did not converge, and with a sparse Jacobian paths are followed \
+                 of at most {limit} unknowns, got {order}"
+            ),
+            Termination::StructurallySingular { row, col } => write!(
+                out,
+                "the zeros of the Jacobian make it singular: no permutation pairs row {row} and \
+                 column {col} with entries that are not zero"
+            ),
+        }
+    }
 }
 
 impl Termination {
@@ -200,5 +249,34 @@ impl Outcome {
     /// All pivots of the run with their t, path after path.
     pub fn trace(&self) -> impl Iterator<Item = &Pivot> {
         self.log.iter().flat_map(MajorRecord::pivots)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reasons that name a place, or numbers, say them.
+    #[test]
+    fn reasons_are_sentences() {
+        let place = NonFinite::Jacobian { row: 2, col: 1 };
+        for (reason, sentence) in [
+            (Termination::Ray, "the last path ended on a ray"),
+            (Termination::NonFinite(place), "expected a finite F'[2][1]"),
+            (
+                Termination::JacobianShape { rows: 3, cols: 2 },
+                "expected a square Jacobian, got 3 rows and 2 columns",
+            ),
+            (
+                Termination::TooLargeForPaths {
+                    order: 9000,
+                    limit: 2000,
+                },
+                "Newton's method did not converge, and with a sparse Jacobian paths are followed \
+                 of at most 2000 unknowns, got 9000",
+            ),
+        ] {
+            assert_eq!(reason.to_string(), sentence);
+        }
     }
 }

@@ -5,11 +5,12 @@
 //! within the tolerance ([`Residuals::within`]). Input: bounds, z, F(z) and, for the gradient,
 //! F'(z) or products with its transpose.
 
+use super::evaluation::{Evaluated, Point};
 use super::fischer::{Fischer, GradientStorage, fischer, gradient};
-use super::jacobian::jacobian_at;
+use super::jacobian::JacobianMatrix;
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// Infinity norms at a point z in [l, u]. NaN or infinite where F or F' is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,16 +53,20 @@ impl Residuals {
         }
 
         let z = &z[..n];
-        let mut f = vec![0.0; n];
-        problem.function(z, &mut f);
-        let jacobian = jacobian_at(problem, z);
+        let mut point = Point {
+            z: DVector::from_column_slice(z),
+            f: DVector::zeros(n),
+            merit: f64::INFINITY,
+        };
+        problem.function(z, point.f.as_mut_slice());
+        let jacobian = Evaluated::new(problem).any_jacobian(&point);
 
         let mut storage = GradientStorage {
             gradient: &mut DVector::zeros(n),
             work: &mut DVector::zeros(n),
         };
 
-        Residuals::with_gradient(problem, z, &f, &jacobian, &mut storage)
+        Residuals::with_gradient(problem, z, point.f.as_slice(), &jacobian, &mut storage)
     }
 
     /// All five of F and F' as given; the vectors of the storage are of length n.
@@ -69,7 +74,7 @@ impl Residuals {
         problem: &P,
         z: &[f64],
         f: &[f64],
-        jacobian: &DMatrix<f64>,
+        jacobian: &JacobianMatrix,
         storage: &mut GradientStorage<'_>,
     ) -> Residuals {
         gradient(problem, z, f, jacobian, storage);
@@ -180,7 +185,7 @@ mod tests {
     use super::super::probe::bounded;
     use super::*;
     use crate::mcp::LinearMcp;
-    use nalgebra::dmatrix;
+    use nalgebra::{DMatrix, dmatrix};
 
     struct Reciprocal;
 

@@ -174,6 +174,11 @@ pub(super) const CURVE_TRIAL_GROWTH: f64 = 4.0;
 /// same places. Unit: none. Basis: the error of the chord between two points 45 degrees apart.
 pub(super) const CURVE_CLOSED: f64 = 0.05;
 
+/// Order of the largest sparse Jacobian of which a dense matrix is made, for paths and curves.
+/// Unit: unknowns. Basis: 32 MB a matrix; a factorisation of that order takes about a second, and a
+/// path one for every 25 pivots.
+pub(super) const DENSE_ORDER: usize = 2000;
+
 /// Squares above this and below its inverse are safe: a smaller term lost to underflow is below
 /// rounding. Unit: none. Basis: the least normal double (2e-308) times 1e32.
 pub(super) const SQUARE_SAFE: f64 = 1e-275;

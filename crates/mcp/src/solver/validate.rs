@@ -17,13 +17,38 @@ pub(super) fn validate<P: Mcp + ?Sized>(
     options: &Options,
 ) -> Result<(), SolverError> {
     options.validate()?;
+    check_shapes(problem, start)
+}
 
+/// Refuses shapes, bounds and a start that make no sense.
+fn check_shapes<P: Mcp + ?Sized>(problem: &P, start: &[f64]) -> Result<(), SolverError> {
     let n = problem.dimension();
     check_length("lower", n, problem.lower().len())?;
     check_length("upper", n, problem.upper().len())?;
     check_bounds(problem.lower(), problem.upper())?;
 
     check_start(n, start)
+}
+
+/// Refuses shapes and bounds that make no sense, and a point that does not lie within the bounds.
+///
+/// # Errors
+/// [`SolverError`] naming the part or index, what was expected and what was got.
+pub(crate) fn check_point<P: Mcp + ?Sized>(problem: &P, point: &[f64]) -> Result<(), SolverError> {
+    check_shapes(problem, point)?;
+
+    let bounds = problem.lower().iter().zip(problem.upper());
+    for (index, (&got, (&lower, &upper))) in point.iter().zip(bounds).enumerate() {
+        if got < lower || got > upper {
+            return Err(SolverError::StartOutside {
+                index,
+                lower,
+                upper,
+                got,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a start of another length than n, or one that is not finite.

@@ -13,6 +13,7 @@
 use super::super::dense::Lu;
 use super::super::evaluation::{Evaluated, Point};
 use super::super::fischer::fischer;
+use super::super::jacobian::JacobianMatrix;
 use super::super::log::Log;
 use super::super::outcome::{StepKind, Termination};
 use super::super::tolerance::{
@@ -20,7 +21,6 @@ use super::super::tolerance::{
 };
 use super::step::{InsideSystem, search};
 use crate::mcp::Mcp;
-use nalgebra::DMatrix;
 use std::mem::replace;
 
 /// What the steps work with, kept from one crash to the next.
@@ -168,7 +168,7 @@ impl SemismoothStorage {
     fn newton_direction<P: Mcp + ?Sized>(
         &mut self,
         problem: &P,
-        jacobian: &DMatrix<f64>,
+        jacobian: &JacobianMatrix,
         point: &Point,
         near: f64,
     ) -> bool {
@@ -218,16 +218,13 @@ impl SemismoothStorage {
     }
 
     /// Adds to the residuals what the components that go to their bounds change in F.
-    fn move_bounded(&mut self, jacobian: &DMatrix<f64>) {
+    fn move_bounded(&mut self, jacobian: &JacobianMatrix) {
         for (j, moved) in self.direction.iter().enumerate() {
             if *moved == 0.0 {
                 continue;
             }
 
-            let column = jacobian.column(j);
-            for (&i, residual) in self.inside.iter().zip(&mut self.residual) {
-                *residual += column[i] * moved;
-            }
+            jacobian.add_column(j, *moved, &self.inside, &mut self.residual);
         }
     }
 }
@@ -236,7 +233,7 @@ impl SemismoothStorage {
 mod tests {
     use super::*;
     use crate::mcp::LinearMcp;
-    use nalgebra::{DVector, dmatrix};
+    use nalgebra::{DMatrix, DVector, dmatrix};
 
     const INF: f64 = f64::INFINITY;
 
@@ -452,8 +449,9 @@ mod tests {
             merit: 1.0,
         };
         let mut storage = SemismoothStorage::default();
+        let jacobian = dmatrix![2.0, 1.0; 3.0, 4.0].into();
 
-        assert!(storage.newton_direction(&p, &dmatrix![2.0, 1.0; 3.0, 4.0], &point, 0.5));
+        assert!(storage.newton_direction(&p, &jacobian, &point, 0.5));
         assert_eq!(storage.direction, [-0.25, -8.25 / 4.0]);
     }
 }

@@ -1,15 +1,16 @@
 //! Each decision of the follower at its limit, on curves that are known.
 
 use super::super::super::evaluation::Evaluated;
-use super::super::super::probe::{Probe, bounded, free};
+use super::super::super::probe::{bounded, free};
 use super::super::system::Places;
 use super::super::{Options, continuation_through};
 use super::*;
+use crate::mcp::FunctionMcp;
 use nalgebra::{DMatrix, dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
 
-type Linear = Probe<Box<dyn Fn(&[f64], &mut [f64])>, Box<dyn Fn(&[f64], &mut DMatrix<f64>)>>;
+type Linear = FunctionMcp<'static>;
 
 /// M z + q.
 fn linear(m: DMatrix<f64>, q: DVector<f64>, l: &[f64], u: &[f64]) -> Linear {
@@ -17,12 +18,7 @@ fn linear(m: DMatrix<f64>, q: DVector<f64>, l: &[f64], u: &[f64]) -> Linear {
     let f = move |z: &[f64], f: &mut [f64]| {
         f.copy_from_slice((&m * DVector::from_column_slice(z) + &q).as_slice())
     };
-    bounded(
-        l,
-        u,
-        Box::new(f),
-        Box::new(move |_: &[f64], j: &mut DMatrix<f64>| j.copy_from(&matrix)),
-    )
+    bounded(l, u, f, move |_, j| j.copy_from(&matrix))
 }
 
 fn position(z: &[f64], s: f64) -> CurvePoint {
