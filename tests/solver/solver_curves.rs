@@ -1,17 +1,17 @@
 //! The Newton homotopy: curves that meet several solutions, and curves through known ones.
 //!
-//! The truth are problems of the literature on which descent alone fails, with their published
-//! solutions, problems made around a solution, and for eigenproblems the exact enumerator. Further
-//! what a budget buys: the work of a search is counted and compared with its runs.
+//! The truth are problems made around a solution or with known ones, and for eigenproblems the
+//! exact enumerator. Further what a budget buys: the work of a search is counted and compared with
+//! its runs.
 #![cfg(feature = "testkit")]
 
 use crate::families::{Case, random_case, table1_cases};
-use crate::support::{Smooth, smooth};
+use crate::support::smooth;
 use mceip_engine::multistart::{MultistartFound, Search, multistart, support};
 use mceip_engine::reduction::{Embedding, Side};
 use mceip_engine::run::Watch;
 use mceip_exact::Sparse;
-use mceip_mcp::mcp::{LinearMcp, Mcp};
+use mceip_mcp::mcp::{FunctionMcp, LinearMcp, Mcp};
 use mceip_mcp::solver::{
     CurveEnd, Options, Outcome, Sense, StepKind, continuation, continuation_through, solve,
     solve_linear,
@@ -32,88 +32,11 @@ fn solve_from(problem: &impl Mcp, component: f64) -> Outcome {
     outcome
 }
 
-/// Billups 1995: (z - 1)^2 - 1.01 on z >= 0 has one solution, and every merit a trap at z = 0 or
-/// near 1.
-#[test]
-fn billups() {
-    let problem = smooth(
-        1,
-        |z, f| f[0] = (z[0] - 1.0).powi(2) - 1.01,
-        |z, j| j[(0, 0)] = 2.0 * (z[0] - 1.0),
-    );
-    let solution = 1.0 + 1.01f64.sqrt();
-
-    for start in [0.0, 0.5, 1.0, 1.5, 10.0] {
-        let outcome = solve_from(&problem, start);
-        assert!((outcome.point[0] - solution).abs() < 1e-9);
-    }
-
-    let curve = continuation(&problem, &[0.0], Sense::Down, 9, &Options::default()).unwrap();
-    assert_eq!(curve.solutions.len(), 1, "{curve:?}");
-    assert_eq!(curve.end, CurveEnd::Ray, "{curve:?}");
-}
-
-/// Five firms, each with the cost c z + 5^(-1/beta) beta / (1 + beta) z^(1 + 1/beta) of a
-/// production z.
-mod cournot {
-    use nalgebra::DMatrix;
-
-    const C: [f64; 5] = [10.0, 8.0, 6.0, 4.0, 2.0];
-    const BETA: [f64; 5] = [1.2, 1.1, 1.0, 0.9, 0.8];
-    const GAMMA: f64 = 1.1;
-
-    /// The price at which the market takes the production q of all firms.
-    fn price(q: f64) -> f64 {
-        (5000.0 / q).powf(1.0 / GAMMA)
-    }
-
-    /// Marginal cost minus marginal revenue of each firm.
-    pub(super) fn function(z: &[f64], f: &mut [f64]) {
-        let q: f64 = z.iter().sum();
-        for i in 0..5 {
-            let marginal_cost = C[i] + (z[i] / 5.0).powf(1.0 / BETA[i]);
-            let price_effect = z[i] * price(q) / (GAMMA * q);
-            f[i] = marginal_cost - price(q) + price_effect;
-        }
-    }
-
-    pub(super) fn jacobian(z: &[f64], j: &mut DMatrix<f64>) {
-        let q: f64 = z.iter().sum();
-        let p = price(q);
-        let dp = -p / (GAMMA * q);
-
-        for i in 0..5 {
-            for k in 0..5 {
-                j[(i, k)] = -dp + z[i] / GAMMA * (dp / q - p / (q * q));
-            }
-            let slope_of_cost = (z[i] / 5.0).powf(1.0 / BETA[i] - 1.0) / (5.0 * BETA[i]);
-            j[(i, i)] += slope_of_cost + p / (GAMMA * q);
-        }
-    }
-}
-
-/// Murphy, Sherali and Soyster 1982, five firms; four digits of the known solution.
-#[test]
-fn nash_cournot() {
-    let problem = Smooth {
-        lower: vec![0.01; 5],
-        ..smooth(5, cournot::function, cournot::jacobian)
-    };
-    let published = [36.93, 41.82, 43.71, 42.66, 39.18];
-
-    for start in [1.0, 10.0, 100.0] {
-        let point = solve_from(&problem, start).point;
-        for (found, expected) in point.iter().zip(published) {
-            assert!((found - expected).abs() < 6e-3, "{point:?}");
-        }
-    }
-}
-
 /// Invariant capital stock (Hansen and Koopmans 1972): activities x, prices y of two capital goods
 /// and u of labour, in this order among the seven unknowns.
 ///
-/// Our own data, made from a solution; the model is that of MCPLIB's `hanskoop`, whose data we did
-/// not have.
+/// Our own data, made from a solution; the model is that of MCPLIB's `hanskoop`. The problems of
+/// MCPLIB with their own data are in `crates/mcp/tests/mcplib.rs`.
 mod capital_stock {
     use crate::support::smooth;
     use mceip_mcp::mcp::Mcp;
@@ -229,14 +152,9 @@ fn wave(z: f64) -> f64 {
 /// The wave has its zeros on one curve: the curve goes on after each.
 #[test]
 fn one_curve_meets_many_solutions() {
-    let problem = Smooth {
-        lower: vec![f64::NEG_INFINITY],
-        ..smooth(
-            1,
-            |z, f| f[0] = wave(z[0]),
-            |z, j| j[(0, 0)] = z[0].cos() - 0.15 * (0.3 * z[0]).sin(),
-        )
-    };
+    let infinity = f64::INFINITY;
+    let problem = FunctionMcp::new(vec![-infinity], vec![infinity], |z, f| f[0] = wave(z[0]))
+        .with_jacobian(|z, j| j[(0, 0)] = z[0].cos() - 0.15 * (0.3 * z[0]).sin());
 
     let curve = continuation(&problem, &[1.0], Sense::Down, 5, &Options::default()).unwrap();
 

@@ -5,8 +5,8 @@
 //! step leads; random ones with the largest and smallest doubles must not make it panic.
 #![cfg(feature = "solver")]
 
-use crate::support::{Smooth, murty, smooth};
-use mceip_mcp::mcp::{LinearMcp, Mcp};
+use crate::support::{murty, smooth};
+use mceip_mcp::mcp::{FunctionMcp, LinearMcp, Mcp};
 use mceip_mcp::solver::{
     NonFinite, Options, Outcome, SolverError, Termination, solve, solve_linear,
 };
@@ -16,7 +16,10 @@ use proptest::prelude::*;
 const INF: f64 = f64::INFINITY;
 
 /// One unknown, x >= 0.
-fn one_unknown(function: impl Fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> impl Mcp {
+fn one_unknown<'a>(
+    function: impl Fn(f64) -> f64 + 'a,
+    derivative: impl Fn(f64) -> f64 + 'a,
+) -> FunctionMcp<'a> {
     smooth(
         1,
         move |z, f| f[0] = function(z[0]),
@@ -42,15 +45,8 @@ fn refusal(problem: &impl Mcp, start: &[f64]) -> String {
 
 /// What is said of F = z in two unknowns with these bounds.
 fn refusal_of_bounds(lower: &[f64], upper: &[f64]) -> String {
-    let problem = Smooth {
-        lower: lower.to_vec(),
-        upper: upper.to_vec(),
-        ..smooth(
-            2,
-            |z, f| f.copy_from_slice(z),
-            |_, j| j.fill_with_identity(),
-        )
-    };
+    let identity = |z: &[f64], f: &mut [f64]| f.copy_from_slice(z);
+    let problem = FunctionMcp::new(lower.to_vec(), upper.to_vec(), identity);
     refusal(&problem, &[0.0; 2])
 }
 
@@ -85,8 +81,8 @@ fn refusals_name_index_expected_and_got() {
     // Bounds.
     let reversed = refusal_of_bounds(&[0.0, 2.0], &[1.0, 1.0]);
     assert_eq!(reversed, "expected lower <= upper at 1, got 2 and 1");
-    let short = refusal_of_bounds(&[0.0], &[1.0, 1.0]);
-    assert_eq!(short, "expected lower of length 2, got 1");
+    let short = refusal_of_bounds(&[0.0, 0.0], &[1.0]);
+    assert_eq!(short, "expected upper of length 2, got 1");
 }
 
 #[test]

@@ -1,12 +1,16 @@
-//! Problems of the literature with known answers, and the special cases on which LCP codes fail.
+//! Linear problems with known answers, and the special cases on which LCP codes fail. Nonlinear
+//! problems of the literature are in `crates/mcp/tests/mcplib.rs`.
 //!
 //! The truth are the published solutions, or those of a problem small enough to solve by hand. Each
 //! linear problem is solved by Lemke's method and by the outer loop from several starts, under both
 //! rules of the ratio test; all must end at the same point.
 #![cfg(feature = "solver")]
 
-use crate::support::{Smooth, smooth};
-use mceip_mcp::mcp::{LinearMcp, Mcp};
+#[path = "../../crates/mcp/examples/kojima_shindo.rs"]
+#[allow(unreachable_pub, dead_code, reason = "a program of its own")]
+mod kojima_shindo;
+
+use mceip_mcp::mcp::{FunctionMcp, LinearMcp};
 use mceip_mcp::solver::{
     Options, Outcome, PathEnd, PivotKind, RatioTest, Termination, solve, solve_linear,
 };
@@ -228,14 +232,8 @@ fn singular_starts() {
 
     // x^2 = 1 for a free x, from x = 0: stationary for every merit, and F' is zero; the point along
     // the ray leaves it.
-    let square = Smooth {
-        lower: vec![-INF],
-        ..smooth(
-            1,
-            |z, f| f[0] = z[0] * z[0] - 1.0,
-            |z, j| j[(0, 0)] = 2.0 * z[0],
-        )
-    };
+    let square = FunctionMcp::new(vec![-INF], vec![INF], |z, f| f[0] = z[0] * z[0] - 1.0)
+        .with_jacobian(|z, j| j[(0, 0)] = 2.0 * z[0]);
     let outcome = solve(&square, &[0.0], &Options::default()).unwrap();
     assert_solves_square(&outcome);
     let outcome = solve(&square, &[0.0], &without_crash).unwrap();
@@ -243,91 +241,10 @@ fn singular_starts() {
     assert_eq!(outcome.log[0].paths[0].end, PathEnd::Ray);
 }
 
-/// The problem of Kojima and Shindo 1986; with other coefficients, that of Josephy 1979: those of
-/// z_3 in F_2 and of z_4 in F_3, and what is subtracted in F_3.
-fn four_by_four(c_in_f2: f64, d_in_f3: f64, constant: f64) -> impl Mcp {
-    let function = move |z: &[f64], f: &mut [f64]| {
-        let &[a, b, c, d] = z else {
-            panic!("four unknowns")
-        };
-        f[0] = 3.0 * a * a + 2.0 * a * b + 2.0 * b * b + c + 3.0 * d - 6.0;
-        f[1] = 2.0 * a * a + a + b * b + c_in_f2 * c + 2.0 * d - 2.0;
-        f[2] = 3.0 * a * a + a * b + 2.0 * b * b + 2.0 * c + d_in_f3 * d - constant;
-        f[3] = a * a + 3.0 * b * b + 2.0 * c + 3.0 * d - 3.0;
-    };
-    let jacobian = move |z: &[f64], j: &mut DMatrix<f64>| {
-        let a = z[0];
-        let b = z[1];
-        j.copy_from(&dmatrix![
-            6.0 * a + 2.0 * b, 2.0 * a + 4.0 * b, 1.0, 3.0;
-            4.0 * a + 1.0, 2.0 * b, c_in_f2, 2.0;
-            6.0 * a + b, a + 4.0 * b, 2.0, d_in_f3;
-            2.0 * a, 6.0 * b, 2.0, 3.0
-        ]);
-    };
-    smooth(4, function, jacobian)
-}
-
-fn josephy_problem() -> impl Mcp {
-    four_by_four(3.0, 3.0, 1.0)
-}
-
-fn starts_of_four() -> Vec<Vec<f64>> {
-    vec![
-        vec![0.0; 4],
-        vec![1.0; 4],
-        vec![100.0; 4],
-        vec![1.0, 0.0, 1.0, 0.0],
-        vec![1.25, 0.0, 0.0, 0.5],
-        vec![0.0, 5.0, 0.0, 5.0],
-    ]
-}
-
-#[test]
-fn josephy() {
-    let problem = josephy_problem();
-    let expected = [1.5f64.sqrt(), 0.0, 0.0, 0.5];
-
-    for start in starts_of_four() {
-        let outcome = solve(&problem, &start, &Options::default()).unwrap();
-        assert_solves(&outcome, &expected);
-    }
-}
-
-fn is_near(point: &[f64], solution: &[f64; 4]) -> bool {
-    let mut pairs = point.iter().zip(solution);
-    pairs.all(|(found, expected)| (found - expected).abs() < 1e-5)
-}
-
-#[test]
-fn kojima_and_shindo_has_two_solutions_one_of_them_degenerate() {
-    let problem = four_by_four(10.0, 9.0, 9.0);
-    let degenerate = [1.5f64.sqrt(), 0.0, 0.0, 0.5];
-    let regular = [1.0, 0.0, 3.0, 0.0];
-    let mut degenerate_is_seen = false;
-    let mut regular_is_seen = false;
-
-    for start in starts_of_four() {
-        let outcome = solve(&problem, &start, &Options::default()).unwrap();
-        assert!(outcome.termination.reached_tolerance(), "{outcome:?}");
-
-        let is_degenerate = is_near(&outcome.point, &degenerate);
-        let is_regular = is_near(&outcome.point, &regular);
-        assert!(is_degenerate || is_regular, "{outcome:?}");
-        degenerate_is_seen |= is_degenerate;
-        regular_is_seen |= is_regular;
-    }
-
-    assert!(degenerate_is_seen);
-    assert!(regular_is_seen);
-}
-
 #[test]
 fn the_log_tells_the_whole_run() {
-    let problem = josephy_problem();
-
+    let problem = kojima_shindo::problem();
     let start = [0.0, 5.0, 0.0, 5.0];
-
     let outcome = solve(&problem, &start, &Options::default()).unwrap();
 
     let mut pivots = 0;

@@ -5,7 +5,7 @@
 //! shares no line with the solver, so that a solution that the solver misses or invents shows.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip_mcp::mcp::Mcp;
+use mceip_mcp::mcp::{FunctionMcp, Mcp};
 use nalgebra::{DMatrix, DVector, Schur};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -141,50 +141,13 @@ impl Mcp for Embedded {
     }
 }
 
-/// A smooth MCP with F and its Jacobian from closures.
-pub struct Smooth<F, J> {
-    pub n: usize,
-    pub f: F,
-    pub j: J,
-    pub lower: Vec<f64>,
-    pub upper: Vec<f64>,
-}
-
-/// In n unknowns z >= 0.
-pub fn smooth<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)>(
+/// F and its Jacobian in n unknowns z >= 0.
+pub fn smooth<'a>(
     n: usize,
-    f: F,
-    j: J,
-) -> Smooth<F, J> {
-    Smooth {
-        n,
-        f,
-        j,
-        lower: vec![0.0; n],
-        upper: vec![f64::INFINITY; n],
-    }
-}
-
-impl<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)> Mcp for Smooth<F, J> {
-    fn dimension(&self) -> usize {
-        self.n
-    }
-
-    fn lower(&self) -> &[f64] {
-        &self.lower
-    }
-
-    fn upper(&self) -> &[f64] {
-        &self.upper
-    }
-
-    fn function(&self, z: &[f64], f: &mut [f64]) {
-        (self.f)(z, f);
-    }
-
-    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
-        (self.j)(z, j);
-    }
+    f: impl Fn(&[f64], &mut [f64]) + 'a,
+    j: impl Fn(&[f64], &mut DMatrix<f64>) + 'a,
+) -> FunctionMcp<'a> {
+    FunctionMcp::new(vec![0.0; n], vec![f64::INFINITY; n], f).with_jacobian(j)
 }
 
 /// Murty's matrix: 1 on the diagonal, 2 above it.
