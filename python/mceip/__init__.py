@@ -38,6 +38,7 @@ from .answers import (
     SolutionSet,
     Uncertified,
 )
+from .complementarity import McpPoint, McpResiduals, mcp
 from .drawing import Drawing, draw_mode
 from .exact import Interval
 from .inputs import Contact, Number
@@ -77,6 +78,8 @@ __all__ = [
     "Listener",
     "LoadPath",
     "MceipError",
+    "McpPoint",
+    "McpResiduals",
     "Mesh",
     "Mode",
     "ModelWarning",
@@ -97,4 +100,5 @@ __all__ = [
     "__version__",
     "check",
     "draw_mode",
+    "mcp",
 ]

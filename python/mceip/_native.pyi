@@ -1,6 +1,6 @@
 """The part of the module that is written in Rust; use `mceip` itself."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from .inputs import Contact, Triplets
 from .loading import PlainStep
@@ -102,3 +102,13 @@ class NativeLoadPath:
         end_alone: bool,
         progress: Listener | None,
     ) -> tuple[str, str]: ...
+
+def solve_mcp(
+    function: Callable[[list[float]], bytes],
+    jacobian: Callable[[list[float]], bytes | Triplets] | None,
+    lower: Sequence[float],
+    upper: Sequence[float],
+    start: Sequence[float],
+    tolerance: float | None,
+    check: bool,
+) -> tuple[list[float], list[float], list[float], bool, str, list[int]]: ...

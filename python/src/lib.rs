@@ -4,9 +4,10 @@
 //! A problem comes from a file or from triplets of doubles; answers go back as JSON text, which
 //! Python turns into dataclasses. `contact` reads contacts, `loads` bodies under loads, `answers`
 //! writes that text, `watched` runs long work on a thread of its own, so that Ctrl-C and progress
-//! are attended to.
+//! are attended to. `complementarity` solves plain problems given as functions.
 
 mod answers;
+mod complementarity;
 mod contact;
 mod loads;
 mod watched;
@@ -359,6 +360,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<NativeProblem>()?;
     module.add_class::<loads::NativeLoads>()?;
     module.add_class::<loads::NativeLoadPath>()?;
+    module.add_function(wrap_pyfunction!(complementarity::solve_mcp, module)?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("MceipError", py.get_type::<MceipError>())?;
     module.add("RejectedError", py.get_type::<RejectedError>())?;
