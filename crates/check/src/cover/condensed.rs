@@ -45,7 +45,7 @@ use std::ops::Deref;
 const MAX_DEGREE: usize = 8;
 /// Largest binary exponent of an expansion.
 const MAX_EXPONENT: u32 = 1 << 12;
-/// What a long integer and its short form take beside the bits of the integer.
+/// What a long integer takes beside its own bits, at most.
 const BITS_OF_A_NUMBER: u64 = 512;
 /// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
 const NORM_BITS: u32 = 32;

@@ -19,8 +19,7 @@
 //! it holds at the corners.
 //!
 //! Matrices are computed once for all regions of the same intervals, and their work is taken from
-//! the budget of the file. Short numbers are tried first; the long ones decide where these cannot
-//! tell.
+//! the budget of the file.
 
 use super::budget::{WorkBudget, entries_work};
 use super::condensed::Anchors;
@@ -29,7 +28,6 @@ use super::family::{Family, end_bits, words};
 use super::fault::CoverFault;
 use super::proved::AcceptedSolution;
 use super::region::Region;
-use super::short::Short;
 use super::sign_budget::SignBudget;
 use crate::pencil::Rows;
 use mceip_exact::Rational;
@@ -163,38 +161,6 @@ impl<'a> Context<'a> {
             let family = &self.families[part];
             let ends = family.ends(self.anchor, &region.lo, region.hi.as_deref())?;
             Ok([ends].into())
-        })
-    }
-
-    /// The corners in short numbers, where there are such.
-    pub(super) fn short(&self, region: &Region) -> Option<Rc<[Short]>> {
-        let Some(friction) = &region.friction else {
-            return self.part_short(region, 0);
-        };
-
-        region.boxed.short(|| {
-            let plain = self.part_short(region, 0)?;
-            let of_friction = self.part_short(region, 1)?;
-
-            let mut corners = Vec::with_capacity(4);
-            for mu in friction {
-                for (plain, of_friction) in plain.iter().zip(&*of_friction) {
-                    corners.push(plain.plus_multiple(of_friction, mu)?);
-                }
-            }
-            Some(corners.into())
-        })
-    }
-
-    fn part_short(&self, region: &Region, part: usize) -> Option<Rc<[Short]>> {
-        region.parts[part].short(|| {
-            let family = &self.families[part];
-            let short = family.short(self.anchor, &region.lo, region.hi.as_deref());
-            if short.is_some() || matches!(family, Family::Linear(_)) {
-                return short.map(Rc::from);
-            }
-
-            self.part_ends(region, part).ok()?[0].short().map(Rc::from)
         })
     }
 

@@ -10,18 +10,16 @@
 //! which is no value of the window, a semidefinite matrix suffices: the matrix at the lower end
 //! adds the strict inequality.
 //!
-//! A leaf costs the cube of the number of variables that may be in the support, and that twice
-//! where short numbers were tried in vain. `enclosed_definite` decides at an end. Called by the
-//! walk through the trees.
+//! A leaf costs the cube of the number of variables that may be in the support.
+//! `enclosed_definite` decides at an end. Called by the walk through the trees.
 
 use super::ball::BallMatrix;
 use super::context::{Context, corners};
-use super::enclosed_definite::{long_definite, positive_definite};
+use super::enclosed_definite::first_not_definite;
 use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
 use super::region::Region;
-use super::short::Short;
 use mceip_exact::Integer;
 use num_traits::Zero;
 
@@ -34,29 +32,14 @@ impl Leaf for Definite {
     fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
         context.spend_definite(at)?;
         context.affordable(at)?;
-        if let Some(corners) = context.short(at) {
-            if is_definite_at(at, &corners, self.sign) {
-                return Ok(Yield::default());
-            }
-
-            context.spend_definite(at)?; // a second time
-        }
-
         let ends = context.ends(at)?;
         check_corners(at, &corners(&ends), &context.index, self.sign)?;
         Ok(Yield::default())
     }
 }
 
-/// Is `sign` sym(T) positive definite on these variables at all these corners?
-fn is_definite_at(region: &Region, corners: &[Short], sign: i8) -> bool {
-    let possible = region.possible_support();
-    corners
-        .iter()
-        .all(|corner| positive_definite(corner, &possible, sign).is_ok())
-}
-
-/// Demands the same at all corners of the region.
+/// Demands that `sign` sym(T) is positive definite on the variables that may be in the support, at
+/// all corners of the region.
 fn check_corners(
     region: &Region,
     corners: &[EndMatrix<'_>],
@@ -69,8 +52,9 @@ fn check_corners(
             continue; // semidefinite, which suffices there
         }
 
-        let verdict = long_definite(corner.matrix, &possible, sign);
-        verdict.map_err(|pivot| not_definite(sign, index[possible[pivot]], corner.name))?;
+        if let Some(pivot) = first_not_definite(corner.matrix, &possible, sign) {
+            return Err(not_definite(sign, index[possible[pivot]], corner.name));
+        }
     }
 
     Ok(())
@@ -110,7 +94,7 @@ mod tests {
     use super::*;
     use crate::certificate::VariableState;
     use crate::cover::ends::Ends;
-    use crate::cover::order_two::{INDEX, Square, UNDECIDED, ZERO, ends, region, short};
+    use crate::cover::order_two::{INDEX, Square, UNDECIDED, ZERO, ends, region};
 
     fn long_definite_leaf(states: [VariableState; 2], ends: Ends) -> Result<(), CoverFault> {
         check_corners(&region(states), &corners(&[ends]), &INDEX, 1)
@@ -163,15 +147,5 @@ mod tests {
         let r = [ZERO, [[5, 5], [5, 0]]];
         let first_at_zero = [VariableState::AtZero, VariableState::Undecided];
         assert_eq!(long_definite_leaf(first_at_zero, ends(m, r, true)), Ok(()));
-    }
-
-    /// Short numbers say no more than the long ones.
-    #[test]
-    fn short_numbers_may_tell() {
-        let verdict = |short: &[Short; 2]| is_definite_at(&region(UNDECIDED), short, 1);
-        let eye = [[1 << 20, 0], [0, 1 << 20]];
-
-        assert!(verdict(&[short(eye), short(eye)]));
-        assert!(!verdict(&[short(eye), short(ZERO)]));
     }
 }

@@ -26,12 +26,9 @@
 use super::ball::BallMatrix;
 use super::ends::{Ends, FRACTION_BITS, LongMatrix};
 use super::fault::CoverFault;
-use super::short::Short;
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
-
-pub(super) use short_form::ShortForm;
 
 /// Bounds of norms of columns of a polynomial matrix: one vector per coefficient.
 pub(super) type Norms = Vec<Vec<Integer>>;
@@ -192,30 +189,6 @@ impl Expanded {
             let of_chord = &bend[i][j] / 8 + 1;
             of_chord + &remainder[i][j]
         })
-    }
-
-    /// The constant and the direction of a family that is linear in t = d, remainders included, in
-    /// short numbers: at t >= 0 it is within (R_0 + t R_1) of Z_0 + t Z_1, and so between the ends
-    /// of every interval. The constant also holds what long numbers lose at an end: |l| and |v| are
-    /// rounded up there, by less than one unit, and then as `LONG_ROUNDING` says.
-    fn short(&self) -> Option<[Short; 2]> {
-        if self.reversed || !self.center.is_zero() || !self.is_linear() {
-            return None;
-        }
-
-        let all: Vec<usize> = (0..self.order()).collect();
-        let zero = Rational::zero();
-
-        let mut factors = self.factors(0, &zero);
-        for bound in factors.left.iter_mut().chain(&mut factors.v) {
-            *bound += 1;
-        }
-
-        let remainder = self.weighted(&factors, &self.weight);
-        let rounding = Short::around_zero(self.order(), short_form::LONG_ROUNDING);
-        let constant = Short::of(&self.at(&zero), &remainder, &all)?.plus(&rounding)?;
-        let direction = Short::of(&self.direction(), &self.remainder_direction(), &all)?;
-        Some([constant, direction])
     }
 
     fn order(&self) -> usize {
@@ -454,6 +427,5 @@ fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -
     products
 }
 
-mod short_form;
 #[cfg(test)]
 mod tests;

@@ -9,8 +9,8 @@
 //! counted as a radius. Rows multiplied by positive numbers d_i keep the null vectors of T and the
 //! signs of y = Tx, and x'Tx becomes sum d_i x_i y_i, which is zero for solutions as before.
 //!
-//! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it, and
-//! `short` gives the ends in short numbers where it can. Those of two families are in one unit.
+//! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it. The
+//! ends of two families are in one unit.
 
 use super::ball::{BallMatrix, combination};
 use super::budget::entries_work;
@@ -18,30 +18,19 @@ use super::condensed::Anchors;
 use super::ends::{
     Ends, FRACTION_BITS, LongMatrix, largest_bits, rational_bits, within_matrix_bits,
 };
-use super::expanded::{Expanded, ShortForm};
+use super::expanded::Expanded;
 use super::fault::CoverFault;
-use super::short::Short;
 use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
-use num_traits::{One, Signed, Zero};
-
-/// Most products of machine words that the vectors of the remainders over an interval may take for
-/// short numbers to be tried. Longer numbers are left to the long matrices, whose work is counted.
-const MAX_VECTOR_WORK: u64 = 1 << 24;
+use num_traits::{Signed, Zero};
 
 /// T(t) over the window.
 pub(super) enum Family {
     /// A + tB.
     Linear(LinearFamily),
     /// The condensed pencil about several anchors, those that pieces have named.
-    Condensed(Vec<Option<AnchorExpansion>>),
-}
-
-/// The condensed pencil about one anchor, and its short numbers.
-pub(super) struct AnchorExpansion {
-    pub(super) expanded: Expanded,
-    pub(super) short: Option<ShortForm>,
+    Condensed(Vec<Option<Expanded>>),
 }
 
 /// A + tB with a radius per row for what was cut off.
@@ -49,8 +38,6 @@ pub(super) struct LinearFamily {
     a: LongMatrix,
     b: LongMatrix,
     radius: Vec<Integer>,
-    /// A and B in short numbers.
-    short: Option<[Short; 2]>,
 }
 
 impl Family {
@@ -84,7 +71,7 @@ impl Family {
         if let Family::Condensed(list) = self
             && let Some(place) = list.get_mut(number)
         {
-            *place = Some(AnchorExpansion::of(expanded));
+            *place = Some(expanded);
         }
     }
 
@@ -132,7 +119,7 @@ impl Family {
     pub(super) fn anchor(&self, anchor: Option<usize>) -> Option<&Expanded> {
         match self {
             Family::Linear(_) => None,
-            Family::Condensed(list) => Some(&list.get(anchor?)?.as_ref()?.expanded),
+            Family::Condensed(list) => list.get(anchor?)?.as_ref(),
         }
     }
 
@@ -192,37 +179,6 @@ impl Family {
             (_, None) => 0,
         }
     }
-
-    /// The ends in short numbers of the fixed unit, where there are such.
-    pub(super) fn short(
-        &self,
-        anchor: Option<usize>,
-        lo: &Rational,
-        hi: Option<&Rational>,
-    ) -> Option<[Short; 2]> {
-        match self {
-            Family::Linear(linear) => Short::linear_ends(linear.short.as_ref()?, lo, hi),
-            Family::Condensed(list) => {
-                let AnchorExpansion { expanded, short } = list.get(anchor?)?.as_ref()?;
-                let order = expanded.weight.len().max(1) as u64;
-                let vector_work = self.matrix_work(anchor, lo, hi) / order;
-                if vector_work > MAX_VECTOR_WORK {
-                    return None;
-                }
-
-                short.as_ref()?.ends(expanded, lo, hi)
-            }
-        }
-    }
-}
-
-impl AnchorExpansion {
-    fn of(expanded: Expanded) -> AnchorExpansion {
-        AnchorExpansion {
-            short: ShortForm::of(&expanded),
-            expanded,
-        }
-    }
 }
 
 /// The sizes that the work of one matrix depends on.
@@ -251,7 +207,6 @@ impl LinearFamily {
             a: Vec::with_capacity(n),
             b: Vec::with_capacity(n),
             radius: Vec::with_capacity(n),
-            short: None,
         };
 
         for (row, &bits) in rows.rows.iter().zip(bits) {
@@ -272,17 +227,7 @@ impl LinearFamily {
             linear.radius.push(Integer::from(u8::from(is_cut)));
         }
 
-        linear.short = linear.short_parts();
         linear
-    }
-
-    /// A and B in short numbers.
-    fn short_parts(&self) -> Option<[Short; 2]> {
-        let all: Vec<usize> = (0..self.a.len()).collect();
-        let radius = self.by_row(&Integer::one());
-        let a = Short::of(&self.a, &radius, &all)?;
-        let b = Short::of(&self.b, &radius, &all)?;
-        Some([a, b])
     }
 
     /// A factor times the radius, for every entry.
@@ -370,6 +315,7 @@ fn shift(v: &Integer, bits: i64) -> Integer {
 mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
+    use num_traits::One;
 
     /// One row short of 128 bits, one of exactly 128 and one of 131, which loses three.
     fn rows() -> Rows {
@@ -557,10 +503,7 @@ mod tests {
             coefficients: 1,
             reversed: false,
         };
-        Family::Condensed(vec![Some(AnchorExpansion {
-            expanded,
-            short: None,
-        })])
+        Family::Condensed(vec![Some(expanded)])
     }
 
     /// 512^2 entries of 128 bits, 2 bits of the end 1, and those of sigma and tau.
@@ -587,48 +530,5 @@ mod tests {
 
         let with = expansion(2, 61).matrix_work(Some(0), &whole(1), None);
         assert_eq!(with, 4 * (4 * (1 + 4) + 256));
-    }
-
-    /// Long ends are left to long matrices, whose work is counted: with E words for the end 2^k the
-    /// vectors take 2 E (1 + E) products.
-    #[test]
-    fn long_ends_have_no_short_numbers() {
-        let mut expanded = expansion(2, 0);
-        if let Family::Condensed(anchors) = &mut expanded {
-            let anchor = anchors[0].as_mut().unwrap();
-            let none = || vec![vec![Integer::zero(); 2]];
-            anchor.expanded.z = vec![vec![vec![Integer::one(); 2]; 2]; 2];
-            anchor.expanded.left = none();
-            anchor.expanded.right = none();
-            anchor.expanded.v = none();
-            anchor.expanded.rounding = none();
-            anchor.short = ShortForm::of(&anchor.expanded);
-        }
-
-        // 2895 words are the most: 128 + 2 + 1 bits and those of the ends, of which 1 has two.
-        let two_to = |k: u64| Rational::from_integer(Integer::one() << k);
-        let words_of = |k: u64| words(FRACTION_BITS + end_bits(&whole(1), Some(&two_to(k))) + 1);
-        let most = 64 * 2895 - 134;
-        assert_eq!([words_of(most), words_of(most + 1)], [2895, 2896]);
-
-        let short = |k: u64| expanded.short(Some(0), &whole(1), Some(&two_to(k)));
-        assert!(short(most).is_some());
-        assert!(short(most + 1).is_none());
-    }
-
-    /// The short numbers are there for ordinary matrices, or every leaf would be computed with long
-    /// ones.
-    #[test]
-    fn ordinary_matrices_have_short_numbers() {
-        let linear = LinearFamily::scaled(&rows(), &row_bits(&rows()));
-        let (lo, hi) = (rational(2, 3), rational(7, 5));
-        assert!(
-            linear.ends(&lo, Some(&hi)).short().is_some()
-                && linear.ends(&lo, None).short().is_some()
-        );
-        let family = Family::Linear(linear);
-        assert!(
-            family.short(None, &lo, Some(&hi)).is_some() && family.short(None, &lo, None).is_some()
-        );
     }
 }

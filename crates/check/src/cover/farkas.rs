@@ -22,7 +22,6 @@ use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
 use super::region::Region;
-use super::short::Short;
 use crate::certificate::VariableState;
 use mceip_exact::{Integer, Rational};
 use num_traits::{Signed, Zero};
@@ -35,11 +34,6 @@ impl Leaf for Farkas<'_> {
         let Farkas(w) = *self;
         context.affordable(at)?;
         check_weights(at, &context.index, w)?;
-        let short = context.short(at);
-        if short.is_some_and(|corners| is_negative_at(at, &corners, w)) {
-            return Ok(Yield::default());
-        }
-
         let ends = context.ends(at)?;
         check_columns(at, &corners(&ends), &context.index, w)?;
         Ok(Yield::default())
@@ -98,25 +92,6 @@ fn check_columns(
     }
 }
 
-/// Is w'T < 0 at all these corners, on all variables that may be in the support?
-fn is_negative_at(region: &Region, corners: &[Short], w: &[i64]) -> bool {
-    corners.iter().all(|corner| is_negative(region, corner, w))
-}
-
-/// Is w'T < 0 on all variables that may be in the support?
-///
-/// `product` gives upper bounds of w'T, radii and rounding included, or nothing where short numbers
-/// overflow. At an infinite end this asks for more than is needed; the long numbers decide there.
-fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
-    let Some(bounds) = end.product(w) else {
-        return false;
-    };
-    bounds
-        .iter()
-        .zip(&region.states)
-        .all(|(bound, state)| *bound < 0 || *state == VariableState::AtZero)
-}
-
 /// Upper bound of (w'T)_j at a corner: sum_i w_i M_ij + |w_i| R_ij.
 fn upper_bound(corner: &EndMatrix<'_>, w: &[i64], j: usize) -> Integer {
     let mut bound = Integer::zero();
@@ -141,7 +116,7 @@ fn upper_bound(corner: &EndMatrix<'_>, w: &[i64], j: usize) -> Integer {
 mod tests {
     use super::*;
     use crate::cover::ends::Ends;
-    use crate::cover::order_two::{INDEX, UNDECIDED, ZERO, ends, region, short};
+    use crate::cover::order_two::{INDEX, UNDECIDED, ZERO, ends, region};
     use mceip_exact::whole;
 
     fn long_farkas(states: [VariableState; 2], ends: Ends, w: [i64; 2]) -> Result<(), CoverFault> {
@@ -213,19 +188,5 @@ mod tests {
             verdict(UNDECIDED, &[1]),
             Err(CoverFault::Length { .. })
         ));
-    }
-
-    /// Short numbers say no more than the long ones.
-    #[test]
-    fn short_numbers_may_tell() {
-        let verdict = |states, short: &[Short; 2]| is_negative_at(&region(states), short, &[1, 0]);
-        let negative = [short([[-1, -1], [0, 0]]), short([[-1, -2], [0, 0]])];
-        let unclear = [short([[-1, 0], [0, 0]]), short([[-1, -2], [0, 0]])];
-        assert!(verdict(UNDECIDED, &negative));
-        assert!(!verdict(UNDECIDED, &unclear));
-
-        // w'T need not be negative on a variable at zero.
-        let second_at_zero = [VariableState::Undecided, VariableState::AtZero];
-        assert!(verdict(second_at_zero, &unclear));
     }
 }

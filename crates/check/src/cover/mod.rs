@@ -19,7 +19,7 @@
 //! (`found`).
 //!
 //! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
-//! half line. `ball`, `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk`
+//! half line. `ball`, `product`, `enclosed_definite` and `psd` are the arithmetic behind it. `walk`
 //! goes through the trees, and `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
@@ -61,7 +61,6 @@ mod region;
 mod regular;
 mod root;
 mod rootless;
-mod short;
 mod sign_budget;
 mod support;
 pub(crate) mod walk;
@@ -175,7 +174,6 @@ fn tail<'a>(rows: &Rows, cover: &'a CompleteSet) -> Result<Option<&'a Rational>,
 #[cfg(test)]
 mod tests {
     use super::budget::WorkBudget;
-    use super::definite::Definite;
     use super::leaf::Leaf;
     use super::region::Region;
     use super::*;
@@ -236,40 +234,6 @@ mod tests {
             got: 27,
         };
         assert_eq!(context.spend_definite(&region), Err(too_large));
-    }
-
-    /// [[1, 1 - e], [1 - e, 1]] with e = 2^-90 is definite by long numbers alone: 8 twice. The unit
-    /// matrix is so by short ones.
-    #[test]
-    fn a_leaf_that_short_numbers_cannot_tell_counts_twice() {
-        let one = Integer::from(1) << 90_u32;
-        let entry = |i: usize, a: Integer| (i, a, Integer::from(0));
-        let close = vec![
-            vec![entry(0, one.clone()), entry(1, &one - 1)],
-            vec![entry(0, &one - 1), entry(1, one.clone())],
-        ];
-        let far = vec![vec![entry(0, one.clone())], vec![entry(1, one)]];
-
-        for (matrix, cost) in [(close, 16), (far, 8)] {
-            let rows = Rows {
-                rows: matrix,
-                ..diagonal(2, 1)
-            };
-            let window = Window::all();
-            let mut context = context(&rows, &window);
-            context.matrix_budget = WorkBudget::matrices(1 << 20);
-            let leaf = |context: &Context<'_>| {
-                let region = region(whole(0), 1, vec![VariableState::Undecided; 2]);
-                Definite { sign: 1 }.check(&region, context).map(drop)
-            };
-
-            context.definite_budget = WorkBudget::definite_leaves(cost);
-            assert_eq!(leaf(&context), Ok(()));
-            assert_eq!(context.definite_budget.left(), 0);
-
-            context.definite_budget = WorkBudget::definite_leaves(cost - 1);
-            assert!(matches!(leaf(&context), Err(CoverFault::TooLarge { .. })));
-        }
     }
 
     /// What a file may spend on definite leaves: 2^26, 2^20 a node, 2^16 an entry that is not zero;
@@ -376,16 +340,5 @@ mod tests {
         }
 
         assert!(leaf::check(&Node::PositiveDefinite, &region, &context).is_ok());
-    }
-
-    #[test]
-    fn a_region_has_short_numbers() {
-        let rows = diagonal(2, 3);
-        let window = Window::all();
-        let context = context(&rows, &window);
-
-        let region = region(whole(0), 1, vec![VariableState::Undecided; 2]);
-
-        assert!(context.short(&region).is_some());
     }
 }

@@ -3,7 +3,6 @@
 use super::ball::BallMatrix;
 use super::ends::{Ends, LongMatrix};
 use super::region::Region;
-use super::short::Short;
 use crate::certificate::VariableState;
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Zero};
@@ -17,10 +16,6 @@ pub(super) const UNDECIDED: [VariableState; 2] = [VariableState::Undecided; 2];
 
 fn matrix(m: Square) -> LongMatrix {
     m.map(|row| row.map(Integer::from).to_vec()).to_vec()
-}
-
-pub(super) fn short(m: Square) -> Short {
-    Short::of(&matrix(m), &matrix(ZERO), &[0, 1]).unwrap()
 }
 
 pub(super) fn region(states: [VariableState; 2]) -> Region {

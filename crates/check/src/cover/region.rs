@@ -3,7 +3,6 @@
 use super::budget::WorkBudget;
 use super::ends::Ends;
 use super::fault::CoverFault;
-use super::short::Short;
 use crate::certificate::VariableState;
 use mceip_exact::Rational;
 use std::cell::{Cell, RefCell};
@@ -155,15 +154,12 @@ impl Region {
 /// end.
 #[derive(Default)]
 pub(super) struct Matrices {
-    exact: RefCell<Option<Rc<[Ends]>>>,
-    /// `Some(None)`: there are no short numbers for them.
-    short: RefCell<Option<Option<Rc<[Short]>>>>,
+    ends: RefCell<Option<Rc<[Ends]>>>,
     is_counted: Cell<bool>,
 }
 
 impl Matrices {
-    /// Takes the work of the long numbers from a budget, once until they are forgotten, whether the
-    /// long numbers are needed or the short ones do: what a file may cost does not depend on that.
+    /// Takes the work of the matrices from a budget, once until they are forgotten.
     pub(super) fn count(&self, budget: &WorkBudget, work: u64) -> Result<(), CoverFault> {
         if !self.is_counted.replace(true) {
             budget.spend(work)?;
@@ -172,39 +168,24 @@ impl Matrices {
         Ok(())
     }
 
-    /// The long numbers, computed where they are not yet known.
+    /// The matrices, computed where they are not yet known.
     pub(super) fn ends(
         &self,
         compute: impl FnOnce() -> Result<Rc<[Ends]>, CoverFault>,
     ) -> Result<Rc<[Ends]>, CoverFault> {
-        if let Some(ends) = &*self.exact.borrow() {
+        if let Some(ends) = &*self.ends.borrow() {
             return Ok(Rc::clone(ends));
         }
 
         let ends = compute()?;
-        self.exact.replace(Some(Rc::clone(&ends)));
+        self.ends.replace(Some(Rc::clone(&ends)));
         Ok(ends)
-    }
-
-    /// The short numbers, computed where they are not yet known.
-    pub(super) fn short(
-        &self,
-        compute: impl FnOnce() -> Option<Rc<[Short]>>,
-    ) -> Option<Rc<[Short]>> {
-        if let Some(known) = &*self.short.borrow() {
-            return known.clone();
-        }
-
-        let short = compute();
-        self.short.replace(Some(short.clone()));
-        short
     }
 
     /// Frees the memory. A region that is split needs its matrices no more, and its siblings
     /// compute them again, so that a deep tree of splits holds the matrices of one interval.
     fn forget(&self) {
-        self.exact.take();
-        self.short.take();
+        self.ends.take();
         self.is_counted.set(false);
     }
 }

@@ -3,9 +3,8 @@
 
 use super::super::budget::WorkBudget;
 use super::super::context::corners;
-use super::super::ends::{EndMatrix, Ends, FRACTION_BITS};
+use super::super::ends::{EndMatrix, Ends};
 use super::super::region::Region;
-use super::super::short::Short;
 use super::*;
 use crate::certificate::{CriticalAnchor, CriticalCondensation, Factor, IntegerMatrix};
 use crate::pencil::Rows;
@@ -187,7 +186,7 @@ fn boxed(t: [Rational; 2], friction: [Rational; 2]) -> Region {
 /// Centers and radii.
 type Enclosure = [Dense; 2];
 
-fn long_corners(ends: &[Ends]) -> Vec<Enclosure> {
+fn enclosures(ends: &[Ends]) -> Vec<Enclosure> {
     let of_corner = |corner: EndMatrix<'_>| {
         let in_units_of_one = |matrix: &Vec<Vec<Integer>>| -> Dense {
             let entry = |v: &Integer| Rational::new(v.clone(), corner.scale.clone());
@@ -199,30 +198,6 @@ fn long_corners(ends: &[Ends]) -> Vec<Enclosure> {
         [&corner.matrix.m, &corner.matrix.r].map(in_units_of_one)
     };
     corners(ends).into_iter().map(of_corner).collect()
-}
-
-fn short_corners(corners: &[Short]) -> Vec<Enclosure> {
-    let fixed_unit = Rational::from_integer(Integer::one() << FRACTION_BITS);
-    let of_corner = |corner: &Short| {
-        [0, 1].map(|part| -> Dense {
-            let entry = |i: usize, j: usize| &corner.entry(i, j)[part] / &fixed_unit;
-            (0..2)
-                .map(|i| (0..2).map(|j| entry(i, j)).collect())
-                .collect()
-        })
-    };
-    corners.iter().map(of_corner).collect()
-}
-
-/// Demands that the first corners hold every matrix within the radius of the others.
-fn assert_hold(wide: &[Enclosure], narrow: &[Enclosure]) {
-    assert_eq!([wide.len(), narrow.len()], [4, 4]);
-    for (wide, narrow) in wide.iter().zip(narrow) {
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let distance = (&wide[0][i][j] - &narrow[0][i][j]).abs();
-            assert!(distance + &narrow[1][i][j] <= wide[1][i][j], "({i}, {j})");
-        }
-    }
 }
 
 /// Demands that T(t, mu), scaled, lies within the combination of the corners with these shares of
@@ -308,9 +283,7 @@ fn the_corners_enclose_the_schur_complement() {
             let window = Window::all();
             let context = context(&parts, &condensation, &window, anchor);
             let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
-            let long = long_corners(&context.ends(&at).unwrap());
-            let short = short_corners(&context.short(&at).unwrap());
-            assert_hold(&short, &long);
+            let corners = enclosures(&context.ends(&at).unwrap());
             let is_reversed = anchor == 1;
             let units = row_units(
                 &parts,
@@ -336,11 +309,9 @@ fn the_corners_enclose_the_schur_complement() {
                         }
                     }
 
-                    for corners in [&long, &short] {
-                        let widest = assert_enclosed(corners, [share, higher], &truth, &units);
-                        if exponent == 40 && anchor == 0 {
-                            assert!(widest < rational(1, 20), "{widest}");
-                        }
+                    let widest = assert_enclosed(&corners, [share, higher], &truth, &units);
+                    if exponent == 40 && anchor == 0 {
+                        assert!(widest < rational(1, 20), "{widest}");
                     }
                 }
             }
@@ -348,7 +319,7 @@ fn the_corners_enclose_the_schur_complement() {
     }
 }
 
-/// Matrices count as much where short numbers decide, once for all boxes that share them.
+/// Matrices count once for all boxes that share them.
 #[test]
 fn boxes_count_their_matrices_once() {
     let parts = parts();
@@ -363,12 +334,11 @@ fn boxes_count_their_matrices_once() {
 
     let first = at();
     assert_eq!(context.affordable(&first), Ok(()));
-    assert!(context.short(&first).is_some());
+    assert!(context.ends(&first).is_ok());
     let cost = before - context.matrix_budget.left();
     assert!(cost > 0);
 
-    // Long numbers of the same box, and a box that differs in its states alone, cost no more.
-    assert!(context.ends(&first).is_ok());
+    // A box that differs in its states alone costs no more.
     let [resting, moving] = first.branch(2, &[2, 3], None).unwrap();
     for sibling in [resting, moving] {
         assert_eq!(context.affordable(&sibling), Ok(()));

@@ -1,7 +1,7 @@
-//! The bounds again, in rational numbers and term by term as the formulas stand; the short form;
-//! the reversed pencil.
+//! The bounds again, in rational numbers and term by term as the formulas stand; the
+//! reversed pencil.
 
-use super::super::family::{AnchorExpansion, Family};
+use super::super::family::Family;
 use super::*;
 use mceip_exact::{rational, whole};
 
@@ -9,13 +9,6 @@ fn grid(n: usize, entry: impl Fn(usize, usize) -> Integer) -> LongMatrix {
     (0..n)
         .map(|i| (0..n).map(|j| entry(i, j)).collect())
         .collect()
-}
-
-fn without_short(expanded: Expanded) -> AnchorExpansion {
-    AnchorExpansion {
-        expanded,
-        short: None,
-    }
 }
 
 fn int(list: &[i64]) -> Vec<Integer> {
@@ -277,221 +270,9 @@ fn reversed_ends_are_those_of_the_reciprocals() {
         reversed().ends(&whole(0), Some(&hi)),
         Err(CoverFault::Hypothesis { .. })
     ));
-    let family = Family::Condensed(vec![
-        Some(without_short(linear())),
-        Some(without_short(reversed())),
-    ]);
+    let family = Family::Condensed(vec![Some(linear()), Some(reversed())]);
     assert_eq!(
         [None, Some(0), Some(1), Some(2)].map(|k| family.is_reversed(k)),
         [false, false, true, false]
     );
-}
-
-fn big(rows: &[&[i64]]) -> Vec<Vec<Integer>> {
-    rows.iter()
-        .map(|r| r.iter().map(|v| Integer::from(*v)).collect())
-        .collect()
-}
-
-/// Linear in t itself, with the two remainders of different sizes.
-fn in_t() -> Expanded {
-    Expanded {
-        center: whole(0),
-        z: vec![
-            big(&[&[300, -500], &[0, 700]]),
-            big(&[&[-100, 200], &[0, 9000]]),
-        ],
-        unit: Integer::from(1024),
-        left: big(&[&[1, 2], &[3, 4]]),
-        right: big(&[&[5, 6], &[0, 0]]),
-        weight: vec![rational(1, 30_000), rational(1, 40_000)],
-        v: big(&[&[7, 1], &[0, 3]]),
-        rounding: big(&[&[2, 1]]),
-        rounding_weight: vec![rational(1, 50_000), rational(1, 60_000)],
-        drift: whole(0),
-        gain: whole(0),
-        bound_bits: 0,
-        coefficients: 4,
-        reversed: false,
-    }
-}
-
-/// Z(t) and its remainders, in the fixed unit.
-fn linear_entry(e: &Expanded, t: &Rational, i: usize, j: usize) -> [Rational; 2] {
-    let z = |k: usize| Rational::new(e.z[k][i][j].clone(), e.unit.clone());
-    let remainder = &e.weight[i] * sum(&e.left, i, t) * sum(&e.right, j, t)
-        + &e.rounding_weight[i] * sum(&e.v, i, t) * sum(&e.rounding, j, t);
-    [(z(0) + t * z(1)) * unit(), remainder * unit()]
-}
-
-#[test]
-fn the_short_form_of_a_linear_family_encloses_it_closely() {
-    let e = in_t();
-    let [a, b] = e.short().unwrap();
-    for t in [whole(0), rational(1, 3), whole(7), rational(100_001, 7)] {
-        let short = a.plus_multiple(&b, &t).unwrap();
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let [value, remainder] = linear_entry(&e, &t, i, j);
-            assert_close(&short, [i, j], [value, remainder]);
-        }
-    }
-}
-
-/// Does an entry contain the number with its radius, and hardly more?
-fn assert_close(short: &Short, [i, j]: [usize; 2], [value, radius]: [Rational; 2]) {
-    let [short_center, short_radius] = short.entry(i, j);
-    let needed = (&value - short_center).abs() + &radius;
-    let rounding = rational(1, 1 << 40) * unit();
-
-    assert!(needed <= short_radius, "({i}, {j})");
-    assert!(short_radius <= radius + rounding, "({i}, {j}) is too wide");
-}
-
-/// The formula of the module, without rounding.
-fn check_short(e: Expanded, lo: &Rational, hi: &Rational) {
-    let polynomial = ShortForm::of(&e).unwrap();
-    let short = polynomial.ends(&e, lo, Some(hi)).unwrap();
-    let own = if e.reversed {
-        [hi.recip(), lo.recip()]
-    } else {
-        [lo.clone(), hi.clone()]
-    };
-    let weight = weights(&e, &own[0]);
-    let d = own.each_ref().map(|t| t - &e.center);
-    let reach = d[0].abs().max(d[1].abs());
-    let width = &d[1] - &d[0];
-
-    for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-        let mut second = whole(0);
-        for (k, z) in e.z.iter().enumerate().skip(2) {
-            let falling = Rational::from_integer(z[i][j].abs() * k * (k - 1));
-            second += falling * power(&reach, k - 2);
-        }
-        let scale = unit() / Rational::from_integer(e.unit.clone());
-        let chord = second * &width * &width * rational(1, 8) * &scale;
-        let remainder = &weight[i] * sum(&e.left, i, &reach) * sum(&e.right, j, &reach)
-            + &e.rounding_weight[i] * sum(&e.v, i, &reach) * sum(&e.rounding, j, &reach);
-        let radius = chord + remainder * unit();
-
-        for (end, at) in d.iter().enumerate() {
-            let of_t = if e.reversed { 1 - end } else { end };
-            let mut value = whole(0);
-            for (k, z) in e.z.iter().enumerate() {
-                value += Rational::from_integer(z[i][j].clone()) * power(at, k);
-            }
-            assert_close(&short[of_t], [i, j], [value * &scale, radius.clone()]);
-        }
-    }
-}
-
-#[test]
-fn the_short_form_of_a_polynomial_encloses_it_closely() {
-    for (lo, hi) in [
-        (rational(1, 7), rational(5, 3)),
-        (whole(3), rational(22, 5)),
-        (rational(1, 9), rational(1, 8)),
-    ] {
-        check_short(bent(), &lo, &hi);
-        check_short(linear(), &lo, &hi);
-        let reversed = Expanded {
-            reversed: true,
-            ..bent()
-        };
-        check_short(reversed, &lo, &hi);
-    }
-}
-
-/// Dyadic numbers, so that short numbers cut nothing off, and no remainder.
-fn exact() -> Expanded {
-    let none = || vec![int(&[0, 0])];
-    Expanded {
-        center: whole(0),
-        z: vec![square([[3, 0], [-1, 2]]), square([[5, -7], [0, 9]])],
-        unit: 4.into(),
-        left: none(),
-        right: none(),
-        v: none(),
-        rounding: none(),
-        ..linear()
-    }
-}
-
-/// Demands that each short end holds every matrix within the radius of the long one, so that
-/// whatever is proved of the short ends is proved of the long ones.
-fn assert_holds_long_ends(e: &Expanded, lo: &Rational, hi: Option<&Rational>) {
-    let long = e.ends(lo, hi).unwrap();
-    let short = ShortForm::of(e).unwrap().ends(e, lo, hi).unwrap();
-    let in_fixed_unit = |v: &Integer| Rational::new(v << FRACTION_BITS, long.scale.clone());
-
-    for end in [0, 1] {
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let [center, radius] = short[end].entry(i, j);
-            let distance = (in_fixed_unit(&long.at[end].m[i][j]) - center).abs();
-            let reach = distance + in_fixed_unit(&long.at[end].r[i][j]);
-            assert!(reach <= radius, "end {end}, entry ({i}, {j}), lo {lo}");
-        }
-    }
-}
-
-#[test]
-fn short_ends_hold_the_long_ones() {
-    let constant = || Expanded {
-        z: vec![square([[3, 0], [-1, 2]]), square([[0, 0], [0, 0]])],
-        ..exact()
-    };
-    let reversed = |e: Expanded| Expanded {
-        reversed: true,
-        ..e
-    };
-    let off_center = || Expanded {
-        center: rational(1, 2),
-        ..exact()
-    };
-
-    for (lo, hi) in [
-        (rational(1, 4), rational(1, 2)),
-        (whole(1), whole(8)),
-        (rational(1, 7), rational(5, 3)),
-    ] {
-        for e in [bent(), linear(), in_t(), exact(), constant(), off_center()] {
-            assert_holds_long_ends(&e, &lo, Some(&hi));
-            let e = reversed(e);
-            assert_holds_long_ends(&e, &lo, Some(&hi));
-            assert_holds_long_ends(&e, &lo, None);
-        }
-
-        for e in [in_t(), exact()] {
-            assert_holds_long_ends(&e, &lo, None);
-        }
-    }
-}
-
-/// A half line needs a direction; of a reversed expansion it is an interval.
-#[test]
-fn a_polynomial_has_no_short_form_at_infinity() {
-    let ends = |e: Expanded| ShortForm::of(&e).unwrap().ends(&e, &whole(3), None);
-    assert!(ends(bent()).is_none());
-    assert!(ends(in_t()).is_some());
-
-    let reversed = Expanded {
-        reversed: true,
-        ..bent()
-    };
-    assert!(ends(reversed).is_some());
-}
-
-#[test]
-fn what_is_not_linear_or_has_another_center_has_no_short_form() {
-    let of = |change: fn(&mut Expanded)| {
-        let mut e = in_t();
-        change(&mut e);
-        e.short().is_some()
-    };
-    assert!(of(|_| {}));
-    assert!(!of(|e| e.center = whole(1)));
-    assert!(!of(|e| e.reversed = true));
-    assert!(!of(|e| e.drift = rational(1, 9)));
-    assert!(!of(|e| e.z.push(big(&[&[0, 0], &[1, 0]]))));
-    assert!(!of(|e| e.right[1][1] = Integer::one()));
-    assert!(!of(|e| e.left.push(vec![Integer::zero(), Integer::one()])));
 }
