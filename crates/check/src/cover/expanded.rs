@@ -234,8 +234,8 @@ impl Expanded {
     /// Z(d), rounded down to the fixed unit.
     fn at(&self, d: &Rational) -> LongMatrix {
         let at_d = Functional::derivative(0, self.z.len(), d).in_fixed_unit();
-        let unit = &self.unit * &at_d.denominator;
-        self.grid(|i, j| at_d.numerator(self.entry(i, j)).div_floor(&unit))
+        let unit = OddDivisor::of(&self.unit * &at_d.denominator);
+        self.grid(|i, j| unit.floor(at_d.numerator(self.entry(i, j))))
     }
 
     /// Z_1, the coefficient of d, rounded down to the fixed unit.
@@ -254,11 +254,11 @@ impl Expanded {
         let second = Functional::derivative(2, self.z.len(), reach).in_fixed_unit();
         let square_numerator = width.numer() * width.numer();
         let square_denominator = width.denom() * width.denom();
-        let unit = &self.unit * &second.denominator * square_denominator;
+        let unit = OddDivisor::of(&self.unit * &second.denominator * square_denominator);
 
         self.grid(|i, j| {
             let bound = second.bound(self.entry(i, j)) * &square_numerator;
-            bound.div_ceil(&unit)
+            unit.ceil(bound)
         })
     }
 
@@ -405,6 +405,31 @@ impl Functional {
     }
 }
 
+/// A positive number to divide by: `odd` 2^`twos`. As a rule it has many factors of two, and
+/// shifting them off leaves a shorter division with the same result.
+struct OddDivisor {
+    odd: Integer,
+    twos: u64,
+}
+
+impl OddDivisor {
+    fn of(divisor: Integer) -> OddDivisor {
+        let twos = divisor.trailing_zeros().unwrap_or(0);
+        let odd = divisor >> twos;
+        OddDivisor { odd, twos }
+    }
+
+    /// The quotient, rounded down.
+    fn floor(&self, dividend: Integer) -> Integer {
+        (dividend >> self.twos).div_floor(&self.odd)
+    }
+
+    /// The quotient, rounded up.
+    fn ceil(&self, dividend: Integer) -> Integer {
+        -self.floor(-dividend)
+    }
+}
+
 /// The product of a number in the fixed unit and a factor, rounded up.
 fn times_up(value: &Integer, factor: &Rational) -> Integer {
     (value * factor.numer()).div_ceil(factor.denom())
@@ -415,13 +440,8 @@ fn weighted_products(left: &[Integer], right: &[Integer], weight: &[Rational]) -
     let mut products = LongMatrix::with_capacity(left.len());
     for (left_i, weight_i) in left.iter().zip(weight) {
         let factor = left_i * weight_i.numer();
-        let unit = weight_i.denom() << FRACTION_BITS;
-        products.push(
-            right
-                .iter()
-                .map(|r| (&factor * r).div_ceil(&unit))
-                .collect(),
-        );
+        let unit = OddDivisor::of(weight_i.denom() << FRACTION_BITS);
+        products.push(right.iter().map(|r| unit.ceil(&factor * r)).collect());
     }
 
     products
