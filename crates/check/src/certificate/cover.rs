@@ -12,7 +12,7 @@
 //! modules of the checker, one for each kind of leaf.
 
 use super::{Integer, IntegerRow, Number, Regular, integer_rows, integers, object};
-use mceip_model::file::word_or_kind;
+use mceip_model::file::{HasWords, WordOrKind};
 use num_traits::Signed as _;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -59,12 +59,18 @@ pub struct Piece {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor: Option<usize>,
     /// The tree in preorder.
+    #[serde(deserialize_with = "nodes")]
     pub tree: Vec<Node>,
 }
 
 /// A number or null: a missing field is refused.
-fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
+fn present<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
     Option::deserialize(d)
+}
+
+fn nodes<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Node>, D::Error> {
+    let nodes = Vec::<WordOrKind<Node>>::deserialize(d)?;
+    Ok(nodes.into_iter().map(|node| node.0).collect())
 }
 
 /// What the branches of a tree say of a complementarity variable in a region.
@@ -79,7 +85,7 @@ pub enum VariableState {
 }
 
 /// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Node {
     /// Cuts the interval of values: the lower part follows, then the upper part.
@@ -98,15 +104,19 @@ pub enum Node {
     NegativeDefinite,
     /// sym(A + tB) of the pencil as given is definite on the free variables and on those that may
     /// be positive, by exact factors.
+    #[serde(deserialize_with = "object::one")]
     Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,
     /// Every variable is decided, and the pencil has at most one null vector on the support.
+    #[serde(deserialize_with = "object::one")]
     Root(Box<Root>),
     /// Every variable is decided: what there is at every value of the interval, exactly.
+    #[serde(deserialize_with = "object::one")]
     Support(Box<Support>),
     /// Every variable is decided, and the pencil is regular on the support everywhere in the
     /// region.
+    #[serde(deserialize_with = "object::one")]
     Regular(Box<Regular>),
     /// Not decided.
     Open,
@@ -166,6 +176,15 @@ impl Node {
     }
 }
 
+impl HasWords for Node {
+    fn is_word(&self) -> bool {
+        matches!(
+            self,
+            Node::PositiveDefinite | Node::NegativeDefinite | Node::Tail | Node::Open
+        )
+    }
+}
+
 /// Pieces whose trees cover values alone.
 fn pieces_over_values<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Piece>, D::Error> {
     pieces_with_nodes(d, false)
@@ -217,11 +236,16 @@ pub struct Root {
     /// Binary exponent of `left` and `right`.
     pub exponent: u32,
     /// What follows from it.
+    #[serde(deserialize_with = "outcome")]
     pub outcome: RootOutcome,
 }
 
+fn outcome<'de, D: Deserializer<'de>>(d: D) -> Result<RootOutcome, D::Error> {
+    Ok(WordOrKind::deserialize(d)?.0)
+}
+
 /// What the only null vector of a leaf is.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RootOutcome {
     /// A solution: it exists, x > 0 and y > 0 strictly.
@@ -237,6 +261,12 @@ pub enum RootOutcome {
     /// In a region that reaches to infinity: this vector, an entry per variable of the pencil, is a
     /// null vector of the pencil's limit there, so nothing is here.
     Infinity(#[serde(with = "integers")] Vec<Integer>),
+}
+
+impl HasWords for RootOutcome {
+    fn is_word(&self) -> bool {
+        matches!(self, RootOutcome::Solution | RootOutcome::Absent)
+    }
 }
 
 /// All solutions of one support over a closed interval: it is cut at `points`, and each point and
@@ -446,114 +476,4 @@ pub struct IntegerMatrix {
     pub exponent: u32,
     /// Rows.
     pub rows: Vec<IntegerRow>,
-}
-
-/// The nodes that stand in a file as words.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum NodeWord {
-    PositiveDefinite,
-    NegativeDefinite,
-    Tail,
-    Open,
-}
-
-/// The nodes that stand in a file as objects with one key.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum NodeKind {
-    Split(Number),
-    Friction(Number),
-    Branch(usize),
-    Farkas(Vec<i64>),
-    #[serde(deserialize_with = "object::one")]
-    Ldl(Box<Ldl>),
-    #[serde(deserialize_with = "object::one")]
-    Root(Box<Root>),
-    #[serde(deserialize_with = "object::one")]
-    Support(Box<Support>),
-    #[serde(deserialize_with = "object::one")]
-    Regular(Box<Regular>),
-}
-
-impl From<NodeWord> for Node {
-    fn from(word: NodeWord) -> Node {
-        match word {
-            NodeWord::PositiveDefinite => Node::PositiveDefinite,
-            NodeWord::NegativeDefinite => Node::NegativeDefinite,
-            NodeWord::Tail => Node::Tail,
-            NodeWord::Open => Node::Open,
-        }
-    }
-}
-
-impl From<NodeKind> for Node {
-    fn from(kind: NodeKind) -> Node {
-        match kind {
-            NodeKind::Split(at) => Node::Split(at),
-            NodeKind::Friction(at) => Node::Friction(at),
-            NodeKind::Branch(index) => Node::Branch(index),
-            NodeKind::Farkas(weights) => Node::Farkas(weights),
-            NodeKind::Ldl(factors) => Node::Ldl(factors),
-            NodeKind::Root(root) => Node::Root(root),
-            NodeKind::Support(support) => Node::Support(support),
-            NodeKind::Regular(regular) => Node::Regular(regular),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Node {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        word_or_kind::<D, NodeWord, NodeKind, Node>(
-            deserializer,
-            "a node: a word, or an object with one key",
-        )
-    }
-}
-
-/// The outcomes that stand in a file as words.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum OutcomeWord {
-    Solution,
-    Absent,
-}
-
-/// The outcomes that stand in a file as objects with one key.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum OutcomeKind {
-    NegativeX(usize),
-    NegativeY(usize),
-    Claim(usize),
-    Infinity(#[serde(with = "integers")] Vec<Integer>),
-}
-
-impl From<OutcomeWord> for RootOutcome {
-    fn from(word: OutcomeWord) -> RootOutcome {
-        match word {
-            OutcomeWord::Solution => RootOutcome::Solution,
-            OutcomeWord::Absent => RootOutcome::Absent,
-        }
-    }
-}
-
-impl From<OutcomeKind> for RootOutcome {
-    fn from(kind: OutcomeKind) -> RootOutcome {
-        match kind {
-            OutcomeKind::NegativeX(index) => RootOutcome::NegativeX(index),
-            OutcomeKind::NegativeY(index) => RootOutcome::NegativeY(index),
-            OutcomeKind::Claim(claim) => RootOutcome::Claim(claim),
-            OutcomeKind::Infinity(x) => RootOutcome::Infinity(x),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for RootOutcome {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        word_or_kind::<D, OutcomeWord, OutcomeKind, RootOutcome>(
-            deserializer,
-            "an outcome: a word, or an object with one key",
-        )
-    }
 }

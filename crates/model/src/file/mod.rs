@@ -21,7 +21,7 @@ mod write;
 pub use loads::{LOADS_FORMAT, LoadsFile, read_loads};
 pub use market::read_matrix_market;
 pub use number::Number;
-pub use object::{Object, Word, word_or_kind};
+pub use object::{HasWords, Object, Word, WordOrKind};
 pub use order::{MAX_ORDER, require_order};
 pub use write::{write_loads, write_problem, write_sparse};
 

@@ -1,11 +1,11 @@
 //! Values that stand in JSON in one form and no other.
 //!
 //! By itself serde reads a struct from a list of its fields too, and a word of an enum from an
-//! object `{"word": null}`. [`Object`] and [`Word`] refuse that, so that a file has one spelling
-//! and every reader of the format, in whatever language, accepts the same files.
+//! object `{"word": null}`. [`Object`], [`Word`] and [`WordOrKind`] refuse that, so that a file has
+//! one spelling and every reader of the format, in whatever language, accepts the same files.
 
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, IntoDeserializer, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor};
 use std::marker::PhantomData;
 
 /// A value read from a JSON object only.
@@ -48,40 +48,47 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Word<T> {
     }
 }
 
-/// An enum whose variants without data stand in JSON as words and those with data as objects with
-/// one key. `Words` and `Kinds` are its two halves; either becomes the whole.
-pub fn word_or_kind<'de, D, Words, Kinds, Whole>(
-    deserializer: D,
-    expected: &'static str,
-) -> Result<Whole, D::Error>
-where
-    D: Deserializer<'de>,
-    Words: Deserialize<'de> + Into<Whole>,
-    Kinds: Deserialize<'de> + Into<Whole>,
-{
-    struct Either<Words, Kinds, Whole>(&'static str, PhantomData<(Words, Kinds, Whole)>);
+/// A value of an enum whose variants without data stand in JSON as words, and those with data as
+/// objects with one key.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WordOrKind<T>(pub T);
 
-    impl<'de, Words, Kinds, Whole> Visitor<'de> for Either<Words, Kinds, Whole>
-    where
-        Words: Deserialize<'de> + Into<Whole>,
-        Kinds: Deserialize<'de> + Into<Whole>,
-    {
-        type Value = Whole;
+/// An enum that [`WordOrKind`] reads.
+pub trait HasWords {
+    /// Is the variant one without data?
+    fn is_word(&self) -> bool;
+}
 
-        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-            f.write_str(self.0)
+impl<'de, T: Deserialize<'de> + HasWords> Deserialize<'de> for WordOrKind<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either<T>(PhantomData<T>);
+
+        impl<'de, T: Deserialize<'de> + HasWords> Visitor<'de> for Either<T> {
+            type Value = T;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a word, or an object with one key")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<T, E> {
+                T::deserialize(word.into_deserializer())
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+                let value = T::deserialize(MapAccessDeserializer::new(map))?;
+                if value.is_word() {
+                    return Err(A::Error::custom(
+                        "expected a word, got an object with that key",
+                    ));
+                }
+
+                Ok(value)
+            }
         }
 
-        fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Whole, E> {
-            Words::deserialize(word.into_deserializer()).map(Into::into)
-        }
-
-        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Whole, A::Error> {
-            Kinds::deserialize(MapAccessDeserializer::new(map)).map(Into::into)
-        }
+        let value = deserializer.deserialize_any(Either(PhantomData))?;
+        Ok(WordOrKind(value))
     }
-
-    deserializer.deserialize_any(Either::<Words, Kinds, Whole>(expected, PhantomData))
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
