@@ -10,7 +10,7 @@
 //! Numbers are read exactly as they are spelt. Unknown and duplicate fields are refused, so that no
 //! reader can pass over a part of a claim it does not understand.
 
-use mceip_exact::{Integer, Rational};
+use mceip_exact::Integer;
 use mceip_model::file::{Number, from_json, require_format};
 use mceip_model::{ModelError, Unknown, Window};
 use serde::{Deserialize, Serialize};
@@ -232,57 +232,34 @@ mod object {
     }
 }
 
-/// A list of integers in a file: JSON strings.
+/// A list of integers in a file, as [`IntegerRow`] has it.
 mod integers {
-    use super::{Integer, Number, Rational};
-    use serde::de::Error as _;
+    use super::{Integer, IntegerRow};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub(super) fn serialize<S: Serializer>(list: &[Integer], s: S) -> Result<S::Ok, S::Error> {
-        numbers(list).serialize(s)
+        IntegerRow::from(list.to_vec()).serialize(s)
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Integer>, D::Error> {
-        from_numbers::<D>(Vec::<Number>::deserialize(d)?)
-    }
-
-    pub(super) fn numbers(list: &[Integer]) -> Vec<Number> {
-        list.iter()
-            .map(|i| Number(Rational::from_integer(i.clone())))
-            .collect()
-    }
-
-    pub(super) fn from_numbers<'de, D: Deserializer<'de>>(
-        list: Vec<Number>,
-    ) -> Result<Vec<Integer>, D::Error> {
-        list.into_iter().map(integer::<D>).collect()
-    }
-
-    fn integer<'de, D: Deserializer<'de>>(n: Number) -> Result<Integer, D::Error> {
-        if n.0.is_integer() {
-            return Ok(n.0.to_integer());
-        }
-
-        let message = format!("expected an integer, got {}", n.0);
-        Err(D::Error::custom(message))
+        Ok(IntegerRow::deserialize(d)?.to_vec())
     }
 }
 
 /// A list of lists of integers in a file.
 mod integer_rows {
-    use super::{Integer, Number, integers};
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use super::{Integer, IntegerRow};
+    use serde::{Deserialize, Deserializer, Serializer};
 
     pub(super) fn serialize<S: Serializer>(rows: &[Vec<Integer>], s: S) -> Result<S::Ok, S::Error> {
-        let rows: Vec<Vec<Number>> = rows.iter().map(|row| integers::numbers(row)).collect();
-        rows.serialize(s)
+        s.collect_seq(rows.iter().map(|row| IntegerRow::from(row.clone())))
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         d: D,
     ) -> Result<Vec<Vec<Integer>>, D::Error> {
-        let rows = Vec::<Vec<Number>>::deserialize(d)?;
-        rows.into_iter().map(integers::from_numbers::<D>).collect()
+        let rows = Vec::<IntegerRow>::deserialize(d)?;
+        Ok(rows.iter().map(IntegerRow::to_vec).collect())
     }
 }
 

@@ -89,6 +89,17 @@ impl IntegerRow {
         *self = list.into();
     }
 
+    fn push(&mut self, entry: Integer) {
+        match &mut self.0 {
+            Entries::Short(row) if entry.bits() <= SHORT_BITS => row.extend(entry.to_i64()),
+            Entries::Short(row) => {
+                let before = row.drain(..).map(Integer::from);
+                self.0 = Entries::Long(before.chain([entry]).collect());
+            }
+            Entries::Long(row) => row.push(entry),
+        }
+    }
+
     /// The integers in machine integers, if all have at most [`SHORT_BITS`] bits.
     pub(crate) fn as_short(&self) -> Option<&[i64]> {
         match &self.0 {
@@ -101,19 +112,13 @@ impl IntegerRow {
 impl FromIterator<Integer> for IntegerRow {
     fn from_iter<I: IntoIterator<Item = Integer>>(integers: I) -> IntegerRow {
         let integers = integers.into_iter();
-        let mut short = Vec::with_capacity(integers.size_hint().0);
-        let mut integers = integers.peekable();
-
-        while let Some(entry) = integers.next_if(|entry| entry.bits() <= SHORT_BITS) {
-            short.extend(entry.to_i64());
+        let capacity = integers.size_hint().0;
+        let mut row = IntegerRow(Entries::Short(Vec::with_capacity(capacity)));
+        for entry in integers {
+            row.push(entry);
         }
 
-        if integers.peek().is_none() {
-            return IntegerRow(Entries::Short(short));
-        }
-
-        let before = short.into_iter().map(Integer::from);
-        IntegerRow(Entries::Long(before.chain(integers).collect()))
+        row
     }
 }
 
@@ -145,26 +150,12 @@ impl<'de> Visitor<'de> for RowVisitor {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<IntegerRow, A::Error> {
-        let mut short = Vec::new();
-        let mut long = Vec::new();
-
+        let mut row = IntegerRow(Entries::Short(Vec::new()));
         while let Some(number) = list.next_element::<Number>()? {
-            let entry = integer(number)?;
-            match entry.to_i64() {
-                Some(machine) if long.is_empty() && entry.bits() <= SHORT_BITS => {
-                    short.push(machine);
-                }
-                _ => {
-                    long.extend(short.drain(..).map(Integer::from));
-                    long.push(entry);
-                }
-            }
+            row.push(integer(number)?);
         }
 
-        if long.is_empty() {
-            return Ok(IntegerRow(Entries::Short(short)));
-        }
-        Ok(IntegerRow(Entries::Long(long)))
+        Ok(row)
     }
 }
 
