@@ -20,11 +20,6 @@ mod sealed {
     pub trait Kind {}
 }
 
-impl sealed::Kind for Certificate {}
-impl sealed::Kind for CriticalCertificate {}
-impl sealed::Kind for PresenceCertificate {}
-impl sealed::Kind for EquilibriumCertificate {}
-
 /// A kind of certificate: its verdict and its file.
 pub trait Provable: Sized + PartialEq + sealed::Kind {
     /// What it is about.
@@ -48,73 +43,49 @@ pub trait Provable: Sized + PartialEq + sealed::Kind {
     fn read(text: &str) -> Result<Self, ModelError>;
 }
 
-impl Provable for Certificate {
-    type Subject = Problem;
-    type Accepted = Accepted;
+/// A kind of certificate: what it is about, what it proves, and its verdict.
+macro_rules! provable {
+    ($kind:ty, $subject:ty, $accepted:ty, $check:path) => {
+        impl sealed::Kind for $kind {}
 
-    fn check(&self, problem: &Problem) -> Result<Accepted, Rejected> {
-        check(problem, self)
-    }
+        impl Provable for $kind {
+            type Subject = $subject;
+            type Accepted = $accepted;
 
-    fn text(&self) -> String {
-        self.to_json()
-    }
+            fn check(&self, subject: &$subject) -> Result<$accepted, Rejected> {
+                $check(subject, self)
+            }
 
-    fn read(text: &str) -> Result<Certificate, ModelError> {
-        Certificate::from_json(text)
-    }
+            fn text(&self) -> String {
+                self.to_json()
+            }
+
+            fn read(text: &str) -> Result<$kind, ModelError> {
+                <$kind>::from_json(text)
+            }
+        }
+    };
 }
 
-impl Provable for CriticalCertificate {
-    type Subject = Problem;
-    type Accepted = AcceptedAbsence;
-
-    fn check(&self, problem: &Problem) -> Result<AcceptedAbsence, Rejected> {
-        check_critical(problem, self)
-    }
-
-    fn text(&self) -> String {
-        self.to_json()
-    }
-
-    fn read(text: &str) -> Result<CriticalCertificate, ModelError> {
-        CriticalCertificate::from_json(text)
-    }
-}
-
-impl Provable for PresenceCertificate {
-    type Subject = Problem;
-    type Accepted = AcceptedPresence;
-
-    fn check(&self, problem: &Problem) -> Result<AcceptedPresence, Rejected> {
-        check_presence(problem, self)
-    }
-
-    fn text(&self) -> String {
-        self.to_json()
-    }
-
-    fn read(text: &str) -> Result<PresenceCertificate, ModelError> {
-        PresenceCertificate::from_json(text)
-    }
-}
-
-impl Provable for EquilibriumCertificate {
-    type Subject = LoadedBody;
-    type Accepted = AcceptedEquilibrium;
-
-    fn check(&self, body: &LoadedBody) -> Result<AcceptedEquilibrium, Rejected> {
-        check_equilibrium(body, self)
-    }
-
-    fn text(&self) -> String {
-        self.to_json()
-    }
-
-    fn read(text: &str) -> Result<EquilibriumCertificate, ModelError> {
-        EquilibriumCertificate::from_json(text)
-    }
-}
+provable!(Certificate, Problem, Accepted, check);
+provable!(
+    CriticalCertificate,
+    Problem,
+    AcceptedAbsence,
+    check_critical
+);
+provable!(
+    PresenceCertificate,
+    Problem,
+    AcceptedPresence,
+    check_presence
+);
+provable!(
+    EquilibriumCertificate,
+    LoadedBody,
+    AcceptedEquilibrium,
+    check_equilibrium
+);
 
 /// A certificate that is accepted as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
