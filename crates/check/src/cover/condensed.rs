@@ -28,6 +28,7 @@
 use super::budget::WorkBudget;
 use super::ends::{LongMatrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
+use super::family::row_bits;
 use super::fault::CoverFault;
 use super::product::{
     Linear, LinearPart, NonzeroRows, part_of, row_of, row_times, times, transposed,
@@ -65,57 +66,66 @@ pub(super) fn of<'a, A: AnchorOfParts, T>(
         tau: &condensation.mass_sigma.0,
         mass_factor: condensation.mass_factor.as_ref(),
     };
-    let anchors = &condensation.anchors;
-    let has_reversed = anchors.iter().any(|anchor| anchor.of_part(0).reversed);
+    let blocks = integral_blocks(parts);
+    check_hypotheses(&blocks[0], bounds)?;
 
-    let mut expanders: Vec<Expander<'_>> = Vec::with_capacity(parts.len());
-    for rows in parts {
-        expanders.push(Expander::of(rows, bounds, has_reversed));
+    let mut anchors: Vec<Vec<AnchorPolynomials<'a>>> = Vec::new();
+    for anchor in &condensation.anchors {
+        anchors.push((0..parts.len()).map(|part| anchor.of_part(part)).collect());
     }
-    check_hypotheses(&expanders[0].blocks, bounds)?;
-    share_scaling(&mut expanders);
 
-    let of_part = |(part, expander)| AnchorsOfPart {
-        expander,
-        anchors: anchors.iter().map(|anchor| anchor.of_part(part)).collect(),
+    let has_reversed = anchors.iter().any(|anchor| anchor[0].reversed);
+    let reversed: Vec<Rows> = if has_reversed && bounds.tau.is_positive() {
+        parts.iter().map(|rows| rows.reversed()).collect()
+    } else {
+        Vec::new()
     };
-    Anchors::new(expanders.into_iter().enumerate().map(of_part).collect())
+
+    Anchors {
+        bounds,
+        blocks,
+        reversed: integral_blocks(&reversed.iter().collect::<Vec<_>>()),
+        anchors,
+        memory: WorkBudget::of_anchors(0),
+    }
+    .within_limits()
+}
+
+/// The blocks of the parts of a pencil, row i of all parts divided by the same power of two.
+fn integral_blocks(parts: &[&Rows]) -> Vec<IntegralBlocks> {
+    let bits = row_bits(parts);
+    let of_part = |rows: &&Rows| IntegralBlocks::of(rows, &bits);
+    parts.iter().map(of_part).collect()
 }
 
 /// The anchors of a file, whose hypotheses and limits hold, and what is left for their expansions.
 pub(super) struct Anchors<'a> {
-    /// The pencil, or T0 and T1.
-    parts: Vec<AnchorsOfPart<'a>>,
+    bounds: FreeBounds<'a>,
+    /// Those of the pencil, or of T0 and T1.
+    blocks: Vec<IntegralBlocks>,
+    /// The blocks of B + sA, where reversed anchors are and may be.
+    reversed: Vec<IntegralBlocks>,
+    /// W and V of each anchor, for each part.
+    anchors: Vec<Vec<AnchorPolynomials<'a>>>,
     memory: WorkBudget,
-}
-
-/// The anchors of one part, and what they are expanded with.
-struct AnchorsOfPart<'a> {
-    expander: Expander<'a>,
-    anchors: Vec<AnchorPolynomials<'a>>,
 }
 
 impl<'a> Anchors<'a> {
     /// Demands that each anchor has its shape and is within its limits.
-    fn new(parts: Vec<AnchorsOfPart<'a>>) -> Result<Anchors<'a>, CoverFault> {
-        let mut anchors = Anchors {
-            parts,
-            memory: WorkBudget::of_anchors(0),
-        };
-
+    fn within_limits(mut self) -> Result<Anchors<'a>, CoverFault> {
         let mut numbers: u64 = 0;
-        for number in 0..anchors.len() {
-            for elimination in anchors.eliminations(number)? {
+        for number in 0..self.len() {
+            for elimination in self.eliminations(number)? {
                 numbers = numbers.saturating_add(elimination.numbers());
             }
         }
 
-        anchors.memory = WorkBudget::of_anchors(numbers);
-        Ok(anchors)
+        self.memory = WorkBudget::of_anchors(numbers);
+        Ok(self)
     }
 
     pub(super) fn len(&self) -> usize {
-        self.parts.first().map_or(0, |part| part.anchors.len())
+        self.anchors.len()
     }
 
     /// The condensed pencil about the anchor with this number, for each part.
@@ -127,27 +137,35 @@ impl<'a> Anchors<'a> {
 
         // W and r are the same for all parts.
         let mut right = None;
-        let mut expansions = Vec::with_capacity(self.parts.len());
-        for (part, elimination) in self.parts.iter().zip(&eliminations) {
+        let mut expansions = Vec::with_capacity(eliminations.len());
+        for elimination in &eliminations {
             let right = right.get_or_insert_with(|| elimination.right_residual());
-            expansions.push(part.expander.expand(elimination, right));
+            expansions.push(elimination.expand(right, self.bounds));
         }
 
         Ok(expansions)
     }
 
-    /// W and V about the anchor with this number, for each part.
+    /// The elimination about the anchor with this number, for each part.
     fn eliminations(&self, number: usize) -> Result<Vec<AnchorElimination<'_>>, CoverFault> {
-        let mut eliminations = Vec::with_capacity(self.parts.len());
-        for part in &self.parts {
-            let anchor = part.anchors.get(number).ok_or(CoverFault::Anchor {
-                anchors: part.anchors.len(),
-                got: Some(number),
-            })?;
-            eliminations.push(part.expander.elimination(*anchor)?);
+        let anchor = self.anchors.get(number).ok_or(CoverFault::Anchor {
+            anchors: self.anchors.len(),
+            got: Some(number),
+        })?;
+
+        let blocks = if anchor[0].reversed {
+            &self.reversed
+        } else {
+            &self.blocks
+        };
+        if blocks.is_empty() {
+            return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
         }
 
-        Ok(eliminations)
+        let parts = blocks.iter().zip(anchor);
+        parts
+            .map(|(blocks, w_and_v)| blocks.elimination(*w_and_v))
+            .collect()
     }
 }
 
@@ -202,78 +220,6 @@ impl AnchorOfParts for CriticalAnchor {
     }
 }
 
-/// Expands the condensed pencil about anchors, given its hypotheses.
-struct Expander<'a> {
-    bounds: FreeBounds<'a>,
-    blocks: IntegralBlocks,
-    /// The blocks of B + sA, where reversed anchors are and may be.
-    reversed: Option<IntegralBlocks>,
-}
-
-impl<'a> Expander<'a> {
-    fn of(rows: &Rows, bounds: FreeBounds<'a>, has_reversed: bool) -> Expander<'a> {
-        let may_be_reversed = has_reversed && bounds.tau.is_positive();
-
-        Expander {
-            bounds,
-            blocks: IntegralBlocks::of(rows),
-            reversed: may_be_reversed.then(|| IntegralBlocks::of(&rows.reversed())),
-        }
-    }
-
-    /// The elimination about an anchor.
-    fn elimination<'b>(
-        &'b self,
-        anchor: AnchorPolynomials<'b>,
-    ) -> Result<AnchorElimination<'b>, CoverFault> {
-        if !anchor.reversed {
-            return self.blocks.elimination(anchor);
-        }
-
-        let Some(blocks) = &self.reversed else {
-            return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
-        };
-        blocks.elimination(anchor)
-    }
-
-    /// The condensed pencil about an anchor.
-    fn expand(&self, elimination: &AnchorElimination<'_>, right: &Residual) -> Expanded {
-        let sigma = self.bounds.sigma;
-        let tau = self.bounds.tau;
-        if elimination.anchor.reversed {
-            elimination.expand(right, tau, sigma)
-        } else {
-            elimination.expand(right, sigma, tau)
-        }
-    }
-}
-
-/// Divides row i of all parts by the same power of two, the largest one.
-fn share_scaling(parts: &mut [Expander<'_>]) {
-    share_bits(parts.iter_mut().map(|part| &mut part.blocks).collect());
-    share_bits(
-        parts
-            .iter_mut()
-            .filter_map(|part| part.reversed.as_mut())
-            .collect(),
-    );
-}
-
-/// The largest bit length for each slip row.
-fn share_bits(mut parts: Vec<&mut IntegralBlocks>) {
-    let mut largest: Vec<u64> = Vec::new();
-    for blocks in &parts {
-        largest.resize(blocks.bits.len(), 0);
-        for (largest, bits) in largest.iter_mut().zip(&blocks.bits) {
-            *largest = bits.max(largest).to_owned();
-        }
-    }
-
-    for blocks in &mut parts {
-        blocks.bits.clone_from(&largest);
-    }
-}
-
 /// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0.
 fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
     let sigma = bounds.sigma;
@@ -287,7 +233,7 @@ fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(
         return Err(hypothesis("mass_sigma >= 0", 0));
     }
 
-    let stiffness = blocks.shifted_free_block(Which::A, sigma);
+    let stiffness = blocks.shifted_free_block(LinearPart::Constant, sigma);
     semidefinite(
         &stiffness,
         &(&blocks.common * sigma.denom()),
@@ -295,7 +241,7 @@ fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(
         false,
         "A_ff - sigma I positive semidefinite",
     )?;
-    let mass = blocks.shifted_free_block(Which::B, tau);
+    let mass = blocks.shifted_free_block(LinearPart::Linear, tau);
     semidefinite(
         &mass,
         &(&blocks.common * tau.denom()),
@@ -352,13 +298,6 @@ fn twice_symmetric(rows: &Rows, common: &Integer, q: &Integer, p: &Integer) -> S
     sum
 }
 
-/// One of the two matrices of the pencil.
-#[derive(Clone, Copy)]
-enum Which {
-    A,
-    B,
-}
-
 /// The blocks of the pencil; free rows multiplied by one common integer, slip rows each by its own
 /// integer.
 struct IntegralBlocks {
@@ -368,19 +307,17 @@ struct IntegralBlocks {
     longest: u64,
     /// The free rows' common multiplier D.
     common: Integer,
-    /// Rows of D T_ff and D T_fs, and of T_sf and T_ss: column, A, B.
-    ff: Linear,
-    fs: Linear,
-    sf: Linear,
-    ss: Linear,
+    /// D T_ff and D T_fs, T_sf and T_ss.
+    of_t: LinearBlocks,
     /// What each slip row was multiplied by.
     factor: Vec<Integer>,
-    /// Bit length of the largest entry of A in each slip row: the row is divided by 2^that.
+    /// Each slip row is divided by two to this power.
     bits: Vec<u64>,
 }
 
-/// The blocks as matrices linear in d = t - p/q, all of them times D q.
-struct ShiftedBlocks {
+/// LinearBlocks of matrices linear in t or d.
+#[derive(Default)]
+struct LinearBlocks {
     ff: Linear,
     fs: Linear,
     sf: Linear,
@@ -406,13 +343,12 @@ struct Coefficient<'a> {
 struct AnchorElimination<'a> {
     blocks: &'a IntegralBlocks,
     anchor: AnchorPolynomials<'a>,
-    about: ShiftedBlocks,
+    /// The blocks as matrices linear in d = t - p/q, all of them times D q.
+    about: LinearBlocks,
     w: MatrixPolynomial<'a>,
     v: MatrixPolynomial<'a>,
     /// Bits of a coefficient of an entry of Z, at most.
     entry_bits: u64,
-    /// Is V = W and T_sf' = T_fs as given, so that l = r?
-    is_mirrored: bool,
 }
 
 /// What is kept of a residual r = T_fs - F W, whose coefficients are in units of 1 / (D q 2^e_w).
@@ -426,25 +362,22 @@ struct Residual {
 }
 
 impl Residual {
-    /// Upper bounds of the norms of the columns of each coefficient; column j counts
-    /// `column_factors[j]` times.
-    fn norms(&self, column_factors: &[Integer]) -> Norms {
-        let of_coefficient = |squares: &Vec<Integer>| norms(squares, column_factors);
+    /// Upper bounds of the norms of the columns of each coefficient.
+    fn norms(&self) -> Norms {
+        let of_coefficient = |squares: &Vec<Integer>| norms(squares, &ones(squares.len()));
         self.squares.iter().map(of_coefficient).collect()
     }
 }
 
 impl IntegralBlocks {
-    fn of(rows: &Rows) -> IntegralBlocks {
+    /// Each slip row i is to be divided by 2^`bits[i]`.
+    fn of(rows: &Rows, bits: &[u64]) -> IntegralBlocks {
         let mut blocks = IntegralBlocks {
             free: 0,
             slip: 0,
             longest: largest_bits(rows.rows.iter().flatten().flat_map(|(_, a, b)| [a, b])),
             common: Integer::one(),
-            ff: vec![],
-            fs: vec![],
-            sf: vec![],
-            ss: vec![],
+            of_t: LinearBlocks::default(),
             factor: vec![],
             bits: vec![],
         };
@@ -481,14 +414,13 @@ impl IntegralBlocks {
             }
 
             if is_free {
-                blocks.ff.push(free_columns);
-                blocks.fs.push(slip_columns);
+                blocks.of_t.ff.push(free_columns);
+                blocks.of_t.fs.push(slip_columns);
             } else {
-                let bits = largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
-                blocks.bits.push(bits);
+                blocks.bits.push(bits[i]);
                 blocks.factor.push(rows.factor[i].clone());
-                blocks.sf.push(free_columns);
-                blocks.ss.push(slip_columns);
+                blocks.of_t.sf.push(free_columns);
+                blocks.of_t.ss.push(slip_columns);
             }
         }
 
@@ -497,7 +429,7 @@ impl IntegralBlocks {
 
     /// Demands that T_ff is symmetric, A_ff and B_ff each.
     fn symmetric(&self) -> Result<(), CoverFault> {
-        for (i, row) in self.ff.iter().enumerate() {
+        for (i, row) in self.of_t.ff.iter().enumerate() {
             for (j, a, b) in row {
                 let has_mirror = match self.free_entry(*j, i) {
                     Some((_, mirror_a, mirror_b)) => (a, b) == (mirror_a, mirror_b),
@@ -512,48 +444,23 @@ impl IntegralBlocks {
         Ok(())
     }
 
-    /// Is T_sf' = T_fs in the pencil as given? The rows here are multiples of its rows.
-    fn has_mirrored_blocks(&self) -> bool {
-        let mut of_sf: BTreeMap<(usize, usize), [Integer; 2]> = BTreeMap::new();
-        for (i, row) in self.sf.iter().enumerate() {
-            for (j, a, b) in row {
-                of_sf.insert((*j, i), [a, b].map(|entry| entry * &self.common));
-            }
-        }
-
-        let mut of_fs: BTreeMap<(usize, usize), [Integer; 2]> = BTreeMap::new();
-        for (j, row) in self.fs.iter().enumerate() {
-            for (i, a, b) in row {
-                of_fs.insert((j, *i), [a, b].map(|entry| entry * &self.factor[*i]));
-            }
-        }
-
-        let is_entry = |_: &(usize, usize), [a, b]: &mut [Integer; 2]| !a.is_zero() || !b.is_zero();
-        of_sf.retain(is_entry);
-        of_fs.retain(is_entry);
-        of_sf == of_fs
-    }
-
     /// The stored entry (i, j) of D T_ff.
     fn free_entry(&self, i: usize, j: usize) -> Option<&(usize, Integer, Integer)> {
-        let row = &self.ff[i];
+        let row = &self.of_t.ff[i];
         let position = row.binary_search_by_key(&j, |entry| entry.0).ok()?;
         Some(&row[position])
     }
 
-    /// A_ff - shift I or B_ff - shift I, in units of 1 / (D times the denominator of the shift).
-    fn shifted_free_block(&self, which: Which, shift: &Rational) -> SymmetricRows {
+    /// A_ff - shift I or B_ff - shift I, the constant part of T_ff or the linear one, in units of
+    /// 1 / (D times the denominator of the shift).
+    fn shifted_free_block(&self, part: LinearPart, shift: &Rational) -> SymmetricRows {
         let diagonal_shift = &self.common * shift.numer();
 
         let mut block = SymmetricRows::with_capacity(self.free);
-        for (i, row) in self.ff.iter().enumerate() {
+        for (i, row) in self.of_t.ff.iter().enumerate() {
             let mut entries: BTreeMap<usize, Integer> = BTreeMap::new();
-            for (j, a, b) in row {
-                let entry = match which {
-                    Which::A => a,
-                    Which::B => b,
-                };
-                entries.insert(*j, entry * shift.denom());
+            for (j, entry) in row_of(row, part) {
+                entries.insert(j, entry * shift.denom());
             }
 
             *entries.entry(i).or_default() -= &diagonal_shift;
@@ -577,7 +484,6 @@ impl IntegralBlocks {
         Ok(AnchorElimination {
             blocks: self,
             about: self.about(anchor.center),
-            is_mirrored: anchor.left.is_none() && self.has_mirrored_blocks(),
             anchor,
             w,
             v,
@@ -642,21 +548,22 @@ impl IntegralBlocks {
     }
 
     /// The blocks as matrices linear in d = t - center.
-    fn about(&self, center: &Rational) -> ShiftedBlocks {
+    fn about(&self, center: &Rational) -> LinearBlocks {
         // The free rows are multiples of D already.
         let one = Integer::one();
-        ShiftedBlocks {
-            ff: about(&self.ff, center, &one),
-            fs: about(&self.fs, center, &one),
-            sf: about(&self.sf, center, &self.common),
-            ss: about(&self.ss, center, &self.common),
+        let LinearBlocks { ff, fs, sf, ss } = &self.of_t;
+        LinearBlocks {
+            ff: about(ff, center, &one),
+            fs: about(fs, center, &one),
+            sf: about(sf, center, &self.common),
+            ss: about(ss, center, &self.common),
         }
     }
 
     /// |dF/dt| / sigma in the maximum row sum.
     fn drift(&self, sigma: &Rational) -> Rational {
         let mut largest = Integer::zero();
-        for row in &self.ff {
+        for row in &self.of_t.ff {
             let sum: Integer = row.iter().map(|(_, _, b)| b.abs()).sum();
             largest = largest.max(sum);
         }
@@ -698,25 +605,25 @@ impl AnchorElimination<'_> {
 
     /// Norms of the columns of l = T_sf' - F V, coefficient by coefficient, in units of
     /// 1 / (D q 2^e_v), column i multiplied by the factor of slip row i.
-    fn left_residual_norms(&self, right: &Residual) -> Norms {
-        let slip = self.blocks.slip;
-        if self.is_mirrored {
-            return right.norms(&self.blocks.factor);
-        }
-
-        let equations = ResidualEquations {
+    fn left_residual_norms(&self) -> Norms {
+        ResidualEquations {
             f: &self.about.ff,
             c: &transpose(&self.about.sf, self.blocks.free),
             w: &self.v,
-            columns: slip,
-        };
-        equations.residual(BeyondDegree::Dropped).norms(&ones(slip))
+            columns: self.blocks.slip,
+        }
+        .residual(BeyondDegree::Dropped)
+        .norms()
     }
 
     /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
-    /// part's, whose free rows and W are the same. Given A_ff >= sigma I and B_ff >= tau I (for a
-    /// reversed anchor the other way round).
-    fn expand(&self, right: &Residual, sigma: &Rational, tau: &Rational) -> Expanded {
+    /// part's, whose free rows and W are the same.
+    fn expand(&self, right: &Residual, bounds: FreeBounds<'_>) -> Expanded {
+        let (sigma, tau) = if self.anchor.reversed {
+            (bounds.tau, bounds.sigma)
+        } else {
+            (bounds.sigma, bounds.tau)
+        };
         let IntegralBlocks { common, bits, .. } = self.blocks;
         let exponent = self.w.exponent + self.v.exponent;
 
@@ -740,12 +647,12 @@ impl AnchorElimination<'_> {
         let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
 
         let z = self.bracket(right);
-        let right_norms = right.norms(&ones(self.blocks.slip));
+        let right_norms = right.norms();
         let rounding = self.w.coefficients.len().min(right_norms.len());
         Expanded {
             center: self.anchor.center.clone(),
             z: raise_rows(z, &raised),
-            left: self.left_residual_norms(right),
+            left: self.left_residual_norms(),
             rounding: right_norms[..rounding].to_vec(),
             right: right_norms,
             v: self.v.coefficients.iter().map(Coefficient::norms).collect(),

@@ -20,7 +20,7 @@ use super::ends::{
 };
 use super::expanded::Expanded;
 use super::fault::CoverFault;
-use crate::pencil::{Row, Rows};
+use crate::pencil::Rows;
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{Signed, Zero};
@@ -44,13 +44,7 @@ impl Family {
     /// The parts of the pencil, in one unit: with free variables about these anchors, none of which
     /// is expanded.
     pub(super) fn of_parts(parts: &[&Rows], anchors: Option<&Anchors<'_>>) -> Vec<Family> {
-        let mut bits = vec![0; parts[0].order()];
-        for rows in parts {
-            for (bits, of_row) in bits.iter_mut().zip(row_bits(rows)) {
-                *bits = of_row.max(*bits);
-            }
-        }
-
+        let bits = row_bits(parts);
         let of_part = |rows: &&Rows| match anchors {
             Some(anchors) => Family::Condensed((0..anchors.len()).map(|_| None).collect()),
             None => Family::Linear(LinearFamily::scaled(rows, &bits)),
@@ -286,10 +280,15 @@ impl LinearFamily {
     }
 }
 
-/// Bit length of the largest entry of A in each row, at least 1: the row is divided by 2^that.
-fn row_bits(rows: &Rows) -> Vec<u64> {
-    let row_bits = |row: &Row| largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
-    rows.rows.iter().map(row_bits).collect()
+/// Bit length of the largest entry of A in each row of these pencils, at least 1: it says by which
+/// power of two the row is divided in all of them.
+pub(super) fn row_bits(parts: &[&Rows]) -> Vec<u64> {
+    let order = parts.first().map_or(0, |rows| rows.order());
+    let of_row = |i: usize| {
+        let entries = parts.iter().flat_map(|rows| &rows.rows[i]);
+        largest_bits(entries.map(|(_, a, _)| a)).max(1)
+    };
+    (0..order).map(of_row).collect()
 }
 
 /// Bits of both ends of an interval.
@@ -359,7 +358,7 @@ mod tests {
     #[test]
     fn ends_are_exact_but_for_what_is_cut_off() {
         let rows = rows();
-        let linear = LinearFamily::scaled(&rows, &row_bits(&rows));
+        let linear = LinearFamily::scaled(&rows, &row_bits(&[&rows]));
         assert_eq!(linear.radius, [0, 0, 1].map(Integer::from));
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         let ends = linear.ends(&lo, Some(&hi));
@@ -412,8 +411,8 @@ mod tests {
             rational(1, 1000),
             rational(1001, 7),
         ] {
-            let ends = LinearFamily::scaled(&rows, &row_bits(&rows)).ends(&lo, None);
-            let slope = LinearFamily::scaled(&rows, &row_bits(&rows)).slope(&lo, None);
+            let ends = LinearFamily::scaled(&rows, &row_bits(&[&rows])).ends(&lo, None);
+            let slope = LinearFamily::scaled(&rows, &row_bits(&[&rows])).slope(&lo, None);
             assert!(ends.infinite);
 
             for i in 0..3 {
@@ -438,7 +437,7 @@ mod tests {
             }
         }
         assert!(
-            Family::Linear(LinearFamily::scaled(&rows, &row_bits(&rows)))
+            Family::Linear(LinearFamily::scaled(&rows, &row_bits(&[&rows])))
                 .ends(None, &whole(1), None)
                 .is_ok()
         );

@@ -262,7 +262,7 @@ fn expansions_spend_a_budget_of_memory() {
     assert_eq!(before, (1 << 30) + (16 << 12));
 
     // Exponents 3 + 2, entries of 4 + 3 bits, a center of 2 + 3; the pencil and its free rows.
-    let blocks = IntegralBlocks::of(&rows);
+    let blocks = IntegralBlocks::of(&rows, &row_bits(&[&rows]));
     let bits = 5 + 7 + 5 + blocks.longest + blocks.common.bits();
     let cost = 4 * 2 * (512 + bits);
     assert!(anchors.expand(1).is_ok());
@@ -357,7 +357,7 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
             factor: vec![one(), one()],
             is_free: vec![true, true],
         };
-        IntegralBlocks::of(&rows).symmetric()
+        IntegralBlocks::of(&rows, &row_bits(&[&rows])).symmetric()
     };
     let refused = |row| {
         Err(CoverFault::Hypothesis {
@@ -450,10 +450,7 @@ fn an_expansion_has_a_largest_size() {
             slip: 1024,
             longest,
             common: one,
-            ff: vec![],
-            fs: vec![],
-            sf: vec![],
-            ss: vec![],
+            of_t: LinearBlocks::default(),
             factor: vec![],
             bits: vec![],
         }
