@@ -48,18 +48,6 @@ const MAX_COEFFICIENTS: usize = 256;
 /// Largest product of coefficients and places with the bits of the longest number of a leaf.
 const MAX_SIZE: u64 = 1 << 23;
 
-/// Solutions of the support in one place of the leaf.
-struct Held {
-    from: Interval,
-    /// The same as `from` at a point, `None`: infinity.
-    to: Option<Interval>,
-    is_point: bool,
-    /// Is there one only, up to its factor, at each value?
-    is_alone: bool,
-    /// If neighbouring cells hold nothing: a part of the leaf that holds no other.
-    hull: Option<Interval>,
-}
-
 /// What a place holds.
 #[derive(Clone, Copy, PartialEq)]
 enum PlaceContent {
@@ -71,45 +59,21 @@ enum PlaceContent {
 }
 
 impl Leaf for Support {
-    /// Isolated single solutions are listed, the others are families.
     fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
         let support = context.problem_indices(at.support());
-        let held = check(context.rows, at, &context.index, self, &context.sign_budget)?;
-
-        let mut held_here = Yield::default();
-        for place in held {
-            let support = support.clone();
-            match place.hull {
-                Some(hull) if place.is_alone => {
-                    let value = place.from;
-                    let solution = AcceptedClaim { support, value };
-                    held_here.found.push(LeafSolution { solution, hull });
-                }
-                _ => held_here.families.push(SolutionFamily {
-                    support,
-                    from: place.from,
-                    to: place.to,
-                    is_point: place.is_point,
-                    is_alone: place.is_alone,
-                }),
-            }
-        }
-
-        Ok(held_here)
+        check(context.rows, at, &support, self, &context.sign_budget)
     }
 }
 
-/// Checks a leaf and returns where it holds solutions. The budget is that of all leaves of the
-/// file.
+/// Checks a leaf and returns what it holds. The budget is that of all leaves of the file.
 fn check(
     rows: &Rows,
     region: &Region,
-    index: &[usize],
+    support: &[usize],
     leaf: &Support,
     budget: &SignBudget,
-) -> Result<Vec<Held>, CoverFault> {
-    let support: Vec<usize> = region.support().into_iter().map(|p| index[p]).collect();
-    let verdict = check_places(rows, region, &support, leaf, budget);
+) -> Result<Yield, CoverFault> {
+    let verdict = check_places(rows, region, support, leaf, budget);
     if budget.is_spent() {
         return Err(CoverFault::OutOfBudget);
     }
@@ -123,14 +87,14 @@ fn check_places(
     support: &[usize],
     leaf: &Support,
     budget: &SignBudget,
-) -> Result<Vec<Held>, CoverFault> {
+) -> Result<Yield, CoverFault> {
     let is_empty = leaf.points.is_empty() && leaf.cells.is_empty();
     if !region.is_decided() || support.is_empty() != is_empty {
         return Err(CoverFault::SupportTooEarly);
     }
 
     if support.is_empty() {
-        return Ok(Vec::new()); // x_s = 0, and T_ff is regular: x = 0
+        return Ok(Yield::default()); // x_s = 0, and T_ff is regular: x = 0
     }
 
     budget.add_coefficients(bounded(leaf)?);
@@ -163,7 +127,7 @@ fn check_places(
         in_cells.push(pencil.content(reason, &place)?);
     }
 
-    Ok(collect(&roots, &at_points, &in_cells))
+    Ok(collect(support, &roots, &at_points, &in_cells))
 }
 
 fn reason(leaf: &Support, number: usize) -> Result<&Exact, CoverFault> {
@@ -173,34 +137,45 @@ fn reason(leaf: &Support, number: usize) -> Result<&Exact, CoverFault> {
     })
 }
 
-/// The places that hold solutions, from below. Cell k lies above point k.
+/// What the places hold, from below: isolated single solutions are listed, the others are families.
+/// Cell k lies above point k.
 fn collect(
+    support: &[usize],
     roots: &[AlgebraicValue],
     at_points: &[PlaceContent],
     in_cells: &[PlaceContent],
-) -> Vec<Held> {
+) -> Yield {
     let is_empty_cell = |k: usize| in_cells.get(k).is_none_or(|c| *c == PlaceContent::Nothing);
-    let mut held = Vec::new();
+    let mut held = Yield::default();
 
     for (k, root) in roots.iter().enumerate() {
         if let PlaceContent::Solutions { is_alone } = at_points[k] {
             let is_isolated = (k == 0 || is_empty_cell(k - 1)) && is_empty_cell(k);
-            held.push(Held {
-                from: root.value.clone(),
-                to: Some(root.value.clone()),
-                is_point: true,
-                is_alone,
-                hull: if is_isolated { hull(roots, k) } else { None },
-            });
+            match hull(roots, k) {
+                Some(hull) if is_alone && is_isolated => {
+                    let solution = AcceptedClaim {
+                        support: support.to_vec(),
+                        value: root.value.clone(),
+                    };
+                    held.found.push(LeafSolution { solution, hull });
+                }
+                _ => held.families.push(SolutionFamily {
+                    support: support.to_vec(),
+                    from: root.value.clone(),
+                    to: Some(root.value.clone()),
+                    is_point: true,
+                    is_alone,
+                }),
+            }
         }
 
         if let Some(PlaceContent::Solutions { is_alone }) = in_cells.get(k) {
-            held.push(Held {
+            held.families.push(SolutionFamily {
+                support: support.to_vec(),
                 from: root.value.clone(),
                 to: roots.get(k + 1).map(|next| next.value.clone()),
                 is_point: false,
                 is_alone: *is_alone,
-                hull: None,
             });
         }
     }

@@ -70,9 +70,12 @@ fn some(x: &[&[i64]], alone: Option<Alone>) -> Exact {
     }))
 }
 
-fn verdict(rows: &Rows, region: &Region, leaf: &Support) -> Result<Vec<Held>, CoverFault> {
-    let index: Vec<usize> = (0..rows.order()).collect();
-    check(rows, region, &index, leaf, &SignBudget::new())
+fn verdict(rows: &Rows, region: &Region, leaf: &Support) -> Result<Yield, CoverFault> {
+    check(rows, region, &region.support(), leaf, &SignBudget::new())
+}
+
+fn count(held: Yield) -> usize {
+    held.found.len() + held.families.len()
 }
 
 /// (t - 1) x_0: one solution, at 1, between points where nothing is.
@@ -101,14 +104,10 @@ fn a_single_solution_is_unique_half_way_to_its_neighbours() {
         reasons: reasons.clone(),
     };
     let held = verdict(&rows, &region(0, Some(3), &[0], 1), &leaf).unwrap();
-    assert!(
-        held.len() == 1
-            && held[0].is_point
-            && held[0].is_alone
-            && held[0].from == Interval::point(whole(1))
-    );
-    assert_eq!(held[0].to, Some(Interval::point(whole(1))));
-    assert_eq!(held[0].hull, Interval::new(rational(3, 4), rational(5, 4)));
+    assert!(held.found.len() == 1 && held.families.is_empty());
+    assert_eq!(held.found[0].solution.value, Interval::point(whole(1)));
+    let half_way = Interval::new(rational(3, 4), rational(5, 4));
+    assert_eq!(Some(&held.found[0].hull), half_way.as_ref());
     // At an end of the leaf nothing is known beyond it.
     for (lo, hi, points, hull) in [
         (1, Some(3), vec![at(1, 1), at(3, 0)], [1, 2]),
@@ -120,7 +119,8 @@ fn a_single_solution_is_unique_half_way_to_its_neighbours() {
             reasons: reasons.clone(),
         };
         let held = verdict(&rows, &region(lo, hi, &[0], 1), &leaf).unwrap();
-        assert_eq!(held[0].hull, Interval::new(whole(hull[0]), whole(hull[1])));
+        let expected = Interval::new(whole(hull[0]), whole(hull[1]));
+        assert_eq!(Some(&held.found[0].hull), expected.as_ref());
     }
 }
 
@@ -147,12 +147,13 @@ fn a_solution_beside_a_cell_of_them_is_not_single() {
             reasons,
         };
         let held = verdict(&rows, &region(0, Some(2), &[0], 2), &leaf).unwrap();
-        assert_eq!(held.len(), 3);
-        assert!(held.iter().all(|h| h.hull.is_none()), "{sign}");
-        let cell = held.iter().position(|h| !h.is_point).unwrap();
-        assert_eq!(cell, 1);
-        assert_eq!(held[cell].from, Interval::point(whole(held_cell - 1)));
-        assert_eq!(held[cell].to, Some(Interval::point(whole(held_cell))));
+        assert!(held.found.is_empty(), "{sign}");
+        let [_, cell, _] = &held.families[..] else {
+            panic!("two points and a cell")
+        };
+        assert!(!cell.is_point);
+        assert_eq!(cell.from, Interval::point(whole(held_cell - 1)));
+        assert_eq!(cell.to, Some(Interval::point(whole(held_cell))));
     }
 }
 
@@ -170,7 +171,7 @@ fn a_farkas_vector_may_vanish_on_some_columns() {
             cells: vec![0],
             reasons: vec![Exact::None(polynomials(w))],
         };
-        verdict(&rows, &region(0, None, &[0, 1], 3), &leaf).map(|held| held.len())
+        verdict(&rows, &region(0, None, &[0, 1], 3), &leaf).map(count)
     };
     assert_eq!(none(&[&[], &[], &[1]]), Ok(0));
     assert_eq!(none(&[&[], &[-1], &[1]]), Ok(0));
@@ -218,7 +219,7 @@ fn one_weight_on_a_resting_row_makes_a_farkas_vector_one_sided() {
             cells: vec![0],
             reasons: vec![Exact::None(polynomials(w))],
         };
-        verdict(rows, &region(0, None, &[0], 3), &leaf).map(|held| held.len())
+        verdict(rows, &region(0, None, &[0], 3), &leaf).map(count)
     };
 
     let empty: &[Pair] = &[(0, 0), (0, 0), (0, 0)];
@@ -249,7 +250,7 @@ fn a_chain_of_equations_determines_all() {
             reasons: vec![member],
         };
         verdict(&rows, &region(0, None, &[0, 1, 2], 3), &leaf)
-            .map(|held| held.iter().all(|h| h.is_alone))
+            .map(|held| held.families.iter().all(|h| h.is_alone))
     };
     let (first, both) = (
         polynomials(&[&[1], &[], &[]]),
@@ -300,7 +301,7 @@ fn one_inequality_bounds_one_side() {
             cells: vec![],
             reasons: vec![member],
         };
-        verdict(&rows, &region(1, Some(1), &[0, 1], 4), &leaf).map(|held| held.len())
+        verdict(&rows, &region(1, Some(1), &[0, 1], 4), &leaf).map(count)
     };
     let one_side = Err(CoverFault::Place {
         place: 0,
