@@ -18,9 +18,9 @@
 //! somebody's solutions.
 
 use crate::exact_solution::within;
-use crate::pencil::{Rows, integral};
+use crate::pencil::Rows;
 use crate::reason::{Reason, Rejected};
-use mceip_exact::{Integer, Interval, Rational, common_denominator};
+use mceip_exact::{Integer, Interval, Rational, cleared, common_denominator};
 use mceip_model::Problem;
 use num_traits::{Signed, Zero};
 
@@ -50,11 +50,7 @@ pub fn backward_error(
     x: &[Rational],
 ) -> Result<Rational, Rejected> {
     let rows = Rows::of(problem);
-    let checked = is_candidate(problem, &rows, value, x);
-    checked.map_err(|reason| Rejected {
-        claim: None,
-        reason,
-    })?;
+    is_candidate(problem, &rows, value, x)?;
 
     let mut largest = Rational::zero();
     for (i, row) in rows.rows.iter().enumerate() {
@@ -64,7 +60,7 @@ pub fn backward_error(
         let mut y = Integer::zero();
         let mut size = Integer::zero();
         for (j, a, b) in row {
-            let x_j = integral(&x[*j], &unit);
+            let x_j = cleared(&x[*j], &unit);
             let of_a = a * value.denom();
             let of_b = b * value.numer();
             size += (of_a.abs() + of_b.abs()) * x_j.abs();

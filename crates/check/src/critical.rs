@@ -35,7 +35,7 @@ pub fn check_critical(
     problem: &Problem,
     certificate: &CriticalCertificate,
 ) -> Result<AcceptedAbsence, Rejected> {
-    verdict(problem, certificate, None).map_err(rejected)
+    Ok(verdict(problem, certificate, None)?)
 }
 
 /// What a certificate proves without the leaves that fail, and these leaves. Without any,
@@ -53,7 +53,7 @@ pub fn audit_critical(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<(AcceptedAbsence, Vec<LeafPlace>)>, Rejected> {
     let audit = Audit::new(go_on);
-    let accepted = verdict(problem, certificate, Some(&audit)).map_err(rejected)?;
+    let accepted = verdict(problem, certificate, Some(&audit))?;
     Ok(audit.into_refused().map(|refused| (accepted, refused)))
 }
 
@@ -96,12 +96,5 @@ pub(crate) fn friction_parts(problem: &Problem) -> Result<FrictionParts, Reason>
             expected: problem.unknown().word(),
             got: Unknown::Lambda2.word(),
         }),
-    }
-}
-
-fn rejected(reason: Reason) -> Rejected {
-    Rejected {
-        claim: None,
-        reason,
     }
 }

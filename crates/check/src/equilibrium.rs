@@ -59,22 +59,14 @@ pub fn check_equilibrium(
     body: &LoadedBody,
     certificate: &EquilibriumCertificate,
 ) -> Result<AcceptedEquilibrium, Rejected> {
-    verdict(body, certificate).map_err(|reason| Rejected {
-        claim: None,
-        reason,
-    })
-}
-
-fn verdict(
-    body: &LoadedBody,
-    certificate: &EquilibriumCertificate,
-) -> Result<AcceptedEquilibrium, Reason> {
     let digest = body.sha256();
     if certificate.loads_sha256 != digest {
+        let got = certificate.loads_sha256.clone();
         return Err(Reason::Digest {
             expected: digest,
-            got: certificate.loads_sha256.clone(),
-        });
+            got,
+        }
+        .into());
     }
 
     let stated = &certificate.stated;
@@ -89,7 +81,8 @@ fn verdict(
         return Err(Reason::NotTheLoad {
             expected: pencil.load,
             got: accepted.support,
-        });
+        }
+        .into());
     }
 
     // A zero that is listed elsewhere is another contact state; one that is not listed is positive.

@@ -196,7 +196,7 @@ fn verdict(
     certificate: &Certificate,
     audit: Option<&Audit<'_>>,
 ) -> Result<Accepted, Rejected> {
-    check_frame(problem, certificate).map_err(of_certificate)?;
+    check_frame(problem, certificate)?;
 
     // The solutions come first, because a cover may refer to them.
     let checker = ClaimChecker::new(problem);
@@ -206,8 +206,7 @@ fn verdict(
         Some(complete_set) => {
             let rows = &checker.rows;
             let window = &certificate.window;
-            let accepted = cover::check(rows, window, &solutions, complete_set, audit);
-            Some(accepted.map_err(of_certificate)?)
+            Some(cover::check(rows, window, &solutions, complete_set, audit)?)
         }
         None => None,
     };
@@ -296,14 +295,6 @@ fn biactive_set(claim: &Claim) -> &[usize] {
 fn of_claim(index: usize, reason: Reason) -> Rejected {
     Rejected {
         claim: Some(index),
-        reason,
-    }
-}
-
-/// The rejection of the certificate as a whole.
-fn of_certificate(reason: Reason) -> Rejected {
-    Rejected {
-        claim: None,
         reason,
     }
 }

@@ -33,16 +33,6 @@ pub fn check_presence(
     problem: &Problem,
     certificate: &PresenceCertificate,
 ) -> Result<AcceptedPresence, Rejected> {
-    verdict(problem, certificate).map_err(|reason| Rejected {
-        claim: None,
-        reason,
-    })
-}
-
-fn verdict(
-    problem: &Problem,
-    certificate: &PresenceCertificate,
-) -> Result<AcceptedPresence, Reason> {
     of_problem(problem, &certificate.problem_sha256)?;
     let parts = friction_parts(problem)?;
     parts
@@ -51,10 +41,8 @@ fn verdict(
 
     let PresenceCertificate { from, to, .. } = certificate;
     if from.is_negative() || from >= to {
-        return Err(Reason::FrictionRange {
-            from: from.clone(),
-            to: to.clone(),
-        });
+        let (from, to) = (from.clone(), to.clone());
+        return Err(Reason::FrictionRange { from, to }.into());
     }
 
     cover::presence::check(&parts, certificate)?;

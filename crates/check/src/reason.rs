@@ -24,6 +24,16 @@ pub struct Rejected {
     pub reason: Reason,
 }
 
+impl From<Reason> for Rejected {
+    /// The rejection of the certificate as a whole.
+    fn from(reason: Reason) -> Rejected {
+        Rejected {
+            claim: None,
+            reason,
+        }
+    }
+}
+
 impl Reason {
     /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
     pub fn name(&self) -> String {
