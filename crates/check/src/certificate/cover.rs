@@ -22,11 +22,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct CompleteSet {
     /// How the free variables were eliminated; absent where there are none.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub condensation: Option<Condensation>,
     /// Consecutive intervals from the lower to the upper end of the window.
     #[serde(deserialize_with = "pieces_over_values")]
@@ -316,11 +313,8 @@ pub struct Member {
     /// x(t), one polynomial per variable of the pencil.
     pub x: Polynomials,
     /// Proof that at each value it is the only one up to its factor; without it, one of a cone.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub alone: Option<Alone>,
 }
 
@@ -393,21 +387,15 @@ pub struct Condensation<A = Anchor, T = Tail> {
     pub mass_sigma: Number,
     /// Approximate Cholesky factor of B_ff - tau I, where that is neither zero nor a non-negative
     /// diagonal.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_factor: Option<Factor>,
     /// Centres at which the condensed pencil is expanded.
     #[serde(deserialize_with = "object::list")]
     pub anchors: Vec<A>,
     /// Proof that nothing lies above some value, for [`Node::Tail`].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tail: Option<T>,
 }
 
@@ -422,11 +410,8 @@ pub struct Tail {
     pub factor: Factor,
     /// Approximate Cholesky factor of sym(B), where that is neither zero nor a non-negative
     /// diagonal.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_factor: Option<Factor>,
 }
 

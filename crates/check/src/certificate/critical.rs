@@ -88,11 +88,8 @@ pub struct CriticalAnchor {
     pub right: Vec<IntegerMatrix>,
     /// Coefficients of F^-1 T_sf', T_sf that of mu = 0; absent where they are those of `right`, as
     /// T_sf' = T_fs at mu = 0.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option_list"
-    )]
+    #[serde(default, deserialize_with = "object::option_list")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub left: Option<Vec<IntegerMatrix>>,
     /// Coefficients of F^-1 T_sf', T_sf the coefficient of mu.
     #[serde(deserialize_with = "object::list")]
@@ -114,18 +111,12 @@ pub struct CriticalTail {
     pub factor_below: Factor,
     /// Approximate Cholesky factor of sym(B) at the smallest mu, where that is no non-negative
     /// diagonal.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_factor: Option<Factor>,
     /// The same at mu = `below`.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_factor_below: Option<Factor>,
 }
 
@@ -138,11 +129,8 @@ struct CriticalFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     from: Option<Number>,
     below: Number,
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     condensation: Option<CriticalCondensation>,
     #[serde(deserialize_with = "super::cover::pieces_over_friction")]
     pieces: Vec<Piece>,

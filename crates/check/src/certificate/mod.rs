@@ -138,11 +138,8 @@ struct CertificateFile {
     #[serde(deserialize_with = "object::one")]
     window: FileWindow,
     claims: Vec<Claim>,
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     complete_set: Option<CompleteSet>,
 }
 

@@ -78,11 +78,8 @@ struct WithoutTail {
     #[serde(deserialize_with = "object::one")]
     stiffness_factor: Factor,
     mass_sigma: Number,
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     mass_factor: Option<Factor>,
     #[serde(deserialize_with = "object::list")]
     anchors: Vec<CriticalAnchor>,
@@ -121,11 +118,8 @@ struct PresenceFile {
     problem_sha256: String,
     from: Number,
     to: Number,
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "object::option"
-    )]
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     condensation: Option<WithoutTail>,
     #[serde(deserialize_with = "object::list")]
     pieces: Vec<PresencePiece>,
