@@ -39,7 +39,7 @@ use super::exact_solution::{index_set, one_half, within};
 use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use crate::certificate::EnclosedSolution;
-use mceip_exact::{Integer, Interval, Rational, common_denominator};
+use mceip_exact::{Integer, Interval, Rational, cleared, common_denominator};
 use mceip_model::Window;
 use mceip_model::file::Number;
 use num_traits::{One, Signed, Zero};
@@ -114,10 +114,7 @@ fn check_shape(claim: &EnclosedSolution, unknowns: usize) -> Result<(), Reason> 
 
 /// The numbers times `unit`, a common multiple of their denominators.
 fn in_units(unit: &Integer, numbers: &[Number]) -> Vec<Integer> {
-    numbers
-        .iter()
-        .map(|n| n.0.numer() * (unit / n.0.denom()))
-        .collect()
+    numbers.iter().map(|n| cleared(&n.0, unit)).collect()
 }
 
 /// [center - radius, center + radius]. All radii here are sums of absolute values or have been

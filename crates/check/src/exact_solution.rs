@@ -29,11 +29,10 @@ use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use crate::certificate::ExactSolution;
 use crate::cover::ends::rational_bits;
-use mceip_exact::{Integer, Interval, Poly, Rational, common_denominator};
+use mceip_exact::{Integer, Interval, Poly, Rational, cleared, common_denominator};
 use mceip_model::Window;
 use mceip_model::file::Number;
-use num_integer::Integer as _;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// Largest number of coefficients of p and of each x_i. A support of n variables needs at most
 /// n + 1.
@@ -361,10 +360,7 @@ pub(super) fn coefficients<'a>(
 /// g modulo p, times |lead(p)|^steps.
 fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Polynomial {
     let common = common_denominator(g);
-    let integral = g
-        .iter()
-        .map(|c| c.numer() * (&common / c.denom()))
-        .collect();
+    let integral = g.iter().map(|c| cleared(c, &common)).collect();
 
     let remainder = Poly::new(integral).pseudo_rem_steps(p, steps);
     remainder
@@ -380,17 +376,17 @@ fn times(row: &Row, x: &[Polynomial]) -> Polynomial {
     let degree = x.iter().map(Vec::len).max().unwrap_or(0);
     let mut product = Vec::with_capacity(degree + 1);
 
-    let mut sum = FractionSum::default();
+    let mut terms = Vec::new();
     for k in 0..=degree {
-        sum.terms.clear();
+        terms.clear();
         for (j, a, b) in row {
-            sum.add(a, x[*j].get(k));
+            terms.extend(x[*j].get(k).map(|value| (a, value)));
             if k > 0 {
-                sum.add(b, x[*j].get(k - 1));
+                terms.extend(x[*j].get(k - 1).map(|value| (b, value)));
             }
         }
 
-        product.push(sum.value());
+        product.push(sum_of_products(&terms));
     }
 
     product
@@ -399,43 +395,16 @@ fn times(row: &Row, x: &[Polynomial]) -> Polynomial {
 /// A sum of products of an integer and a fraction.
 ///
 /// The sum is taken over the common denominator of its terms, which as a rule is that of each: this
-/// needs one gcd instead of two for every term.
-#[derive(Default)]
-struct FractionSum<'a> {
-    terms: Vec<(&'a Integer, &'a Rational)>,
-}
+/// needs one gcd for every term instead of two.
+fn sum_of_products(terms: &[(&Integer, &Rational)]) -> Rational {
+    let common = common_denominator(terms.iter().map(|(_, value)| *value));
 
-impl<'a> FractionSum<'a> {
-    /// Adds factor * value; no value stands for 0.
-    fn add(&mut self, factor: &'a Integer, value: Option<&'a Rational>) {
-        let Some(value) = value else { return };
-        if factor.is_zero() || value.is_zero() {
-            return;
-        }
-
-        self.terms.push((factor, value));
+    let mut numerator = Integer::zero();
+    for (factor, value) in terms {
+        numerator += *factor * cleared(value, &common);
     }
 
-    fn value(&self) -> Rational {
-        let mut common = Integer::one();
-        for (_, value) in &self.terms {
-            if common != *value.denom() {
-                common = common.lcm(value.denom());
-            }
-        }
-
-        let mut numerator = Integer::zero();
-        for (factor, value) in &self.terms {
-            let product = *factor * value.numer();
-            if common == *value.denom() {
-                numerator += product;
-            } else {
-                numerator += product * (&common / value.denom());
-            }
-        }
-
-        Rational::new(numerator, common)
-    }
+    Rational::new(numerator, common)
 }
 
 #[cfg(test)]

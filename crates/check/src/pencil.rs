@@ -35,7 +35,7 @@
 //! the [`Rows`] made here.
 
 use crate::reason::Reason;
-use mceip_exact::{Integer, Rational, Sparse, common_denominator};
+use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
 use std::collections::BTreeMap;
 
@@ -111,11 +111,11 @@ impl Rows {
     ) {
         let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
         for (column, value) in a {
-            entries.entry(*column).or_default().0 += integral(value, &factor);
+            entries.entry(*column).or_default().0 += cleared(value, &factor);
         }
 
         for (column, value) in b {
-            entries.entry(*column).or_default().1 += integral(value, &factor);
+            entries.entry(*column).or_default().1 += cleared(value, &factor);
         }
 
         let row = entries.into_iter().map(|(column, (a, b))| (column, a, b));
@@ -294,11 +294,6 @@ impl FrictionParts {
 
         rows
     }
-}
-
-/// value * factor, where the denominator of `value` divides `factor`.
-pub(super) fn integral(value: &Rational, factor: &Integer) -> Integer {
-    value.numer() * (factor / value.denom())
 }
 
 /// The rows of y = P' (K + lambda^2 M) T x, or of y = P' K T x with mu as the unknown.

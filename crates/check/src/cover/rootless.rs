@@ -16,7 +16,7 @@
 //! Called by `support`.
 
 use super::sign_budget::{PolySize, SignBudget};
-use mceip_exact::{Integer, Interval, Poly, Rational};
+use mceip_exact::{Integer, Interval, Poly, Rational, cleared};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
@@ -24,7 +24,7 @@ use num_traits::{One, Signed, Zero};
 const MAX_DEPTH: u32 = 24;
 const MAX_HALVINGS: usize = 200;
 
-/// The only root of `poly` in `value`.
+/// The only root of `poly`, whose coefficients have no common factor, in `value`.
 pub(super) struct AlgebraicValue {
     pub(super) poly: Poly,
     pub(super) value: Interval,
@@ -166,16 +166,15 @@ fn sign_changes(p: &Poly, a: &Rational, b: Option<&Rational>) -> usize {
         Some(width) => a.denom().lcm(width.denom()),
         None => a.denom().clone(),
     };
-    let in_units = |v: &Rational| v.numer() * (&unit / v.denom());
 
     // p(y / unit) unit^n, shifted to begin at a.
     let mut coefficients: Vec<Integer> = p.coeffs().to_vec();
     multiply_by_powers(coefficients.iter_mut().rev(), &unit);
-    shift(&mut coefficients, &in_units(a));
+    shift(&mut coefficients, &cleared(a, &unit));
 
     if let Some(width) = width {
         // y = width s with s = 1 / (1 + x).
-        multiply_by_powers(coefficients.iter_mut(), &in_units(&width));
+        multiply_by_powers(coefficients.iter_mut(), &cleared(&width, &unit));
         coefficients.reverse();
         shift(&mut coefficients, &Integer::one());
     }
@@ -212,38 +211,20 @@ fn shift(c: &mut [Integer], a: &Integer) {
     }
 }
 
-/// g without its factors q. What is left is counted with the bits of g.
+/// g without its factors q, a polynomial whose coefficients have no common factor. What is left is
+/// counted with the bits of g.
 fn stripped(g: &Poly, q: &Poly, budget: &SignBudget) -> Poly {
     let mut size = PolySize::of(g);
     let mut rest = g.clone();
-    while rest.degree() >= q.degree()
-        && budget.spend_remainder(size, q)
-        && rest.pseudo_rem(q).is_zero()
-    {
-        rest = quotient(&rest, q);
+    while rest.degree() >= q.degree() && budget.spend_remainder(size, q) {
+        let Some(quotient) = rest.exact_div(q) else {
+            break;
+        };
+        rest = quotient;
         size.coefficients = rest.coeffs().len() as u64;
     }
 
     rest
-}
-
-/// A multiple of g / q, which q divides over the rationals.
-fn quotient(g: &Poly, q: &Poly) -> Poly {
-    let lead = q.leading();
-    let mut rest = g.clone();
-    let mut quotient = Poly::default();
-
-    while let (Some(n), Some(m)) = (rest.degree(), q.degree()) {
-        if n < m {
-            break;
-        }
-
-        let top = Poly::constant(rest.leading()).shift(n - m);
-        rest = &rest.scale(&lead) - &(&top * q);
-        quotient = &quotient.scale(&lead) + &top;
-    }
-
-    quotient.primitive()
 }
 
 #[cfg(test)]
