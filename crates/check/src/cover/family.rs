@@ -21,7 +21,7 @@ use super::ends::{
 use super::expanded::Expanded;
 use super::fault::CoverFault;
 use crate::pencil::Rows;
-use mceip_exact::{Integer, Rational};
+use mceip_exact::{Integer, Rational, cleared};
 use num_integer::Integer as _;
 use num_traits::{Signed, Zero};
 
@@ -120,30 +120,24 @@ impl Family {
     /// Demands that a matrix of the interval is small enough.
     ///
     /// It has n_s^2 entries of at most about K (128 + bits of lo and hi) bits, K the number of
-    /// coefficients of the anchor's expansion, 1 without one. A condensation without the anchor
-    /// that is asked for is refused by name elsewhere.
+    /// coefficients of the anchor's expansion, 1 without one.
     pub(super) fn affordable(
         &self,
         anchor: Option<usize>,
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> Result<(), CoverFault> {
-        let per_coefficient = FRACTION_BITS + end_bits(lo, hi);
-        let what = "bits of a region's matrix";
+        let Some(size) = self.matrix_size(anchor) else {
+            return Ok(());
+        };
 
-        match (self, self.anchor(anchor)) {
-            (Family::Linear(linear), _) => {
-                within_matrix_bits(what, linear.a.len(), 1, per_coefficient)
-            }
-            (_, Some(e)) => {
-                let per_coefficient = per_coefficient + e.bound_bits;
-                within_matrix_bits(what, e.weight.len(), e.coefficients, per_coefficient)
-            }
-            (_, None) => Ok(()),
-        }
+        let per_coefficient = FRACTION_BITS + end_bits(lo, hi) + size.bound_bits;
+        let what = "bits of a region's matrix";
+        within_matrix_bits(what, size.order, size.coefficients, per_coefficient)
     }
 
-    /// Products of machine words that the matrices of the interval take.
+    /// Products of machine words that the matrices of the interval take: n_s^2 (E K (C + E K) +
+    /// 2^8).
     ///
     /// They are n_s^2 values of a polynomial of K coefficients, each of C words, at an end of E
     /// words: sums of K products of a coefficient and of powers of the end, together of E K words.
@@ -153,44 +147,46 @@ impl Family {
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> u64 {
-        let bits = FRACTION_BITS + end_bits(lo, hi);
+        let Some(size) = self.matrix_size(anchor) else {
+            return 0;
+        };
 
-        match (self, self.anchor(anchor)) {
-            (Family::Linear(linear), _) => MatrixWork {
+        let bits = FRACTION_BITS + end_bits(lo, hi) + size.center_bits + size.bound_bits;
+        let end_powers = words(bits).saturating_mul(size.coefficients as u64);
+        let value_words = words(size.unit_bits).saturating_add(end_powers);
+        entries_work(size.order, end_powers.saturating_mul(value_words))
+    }
+
+    /// What the size of a matrix depends on beside its interval. A condensation without the anchor
+    /// that is asked for has none: it is refused by name elsewhere.
+    fn matrix_size(&self, anchor: Option<usize>) -> Option<MatrixSize> {
+        match self {
+            Family::Linear(linear) => Some(MatrixSize {
                 order: linear.a.len(),
                 coefficients: 1,
-                coefficient_words: words(FRACTION_BITS),
-                end_words: words(bits),
-            }
-            .products(),
-            (_, Some(e)) => MatrixWork {
+                unit_bits: FRACTION_BITS,
+                center_bits: 0,
+                bound_bits: 0,
+            }),
+            Family::Condensed(_) => self.anchor(anchor).map(|e| MatrixSize {
                 order: e.weight.len(),
                 coefficients: e.coefficients,
-                coefficient_words: words(e.unit.bits()),
-                end_words: words(bits + rational_bits(&e.center) + e.bound_bits),
-            }
-            .products(),
-            (_, None) => 0,
+                unit_bits: e.unit.bits(),
+                center_bits: rational_bits(&e.center),
+                bound_bits: e.bound_bits,
+            }),
         }
     }
 }
 
-/// The sizes that the work of one matrix depends on.
-struct MatrixWork {
+/// The sizes that a matrix of an interval and its work depend on.
+struct MatrixSize {
     order: usize,
     coefficients: usize,
-    coefficient_words: u64,
-    end_words: u64,
-}
-
-impl MatrixWork {
-    /// n_s^2 (E K (C + E K) + 2^8).
-    fn products(&self) -> u64 {
-        let end_powers = self.end_words.saturating_mul(self.coefficients as u64);
-        let value_words = self.coefficient_words.saturating_add(end_powers);
-
-        entries_work(self.order, end_powers.saturating_mul(value_words))
-    }
+    unit_bits: u64,
+    center_bits: u64,
+    /// Of sigma and tau.
+    bound_bits: u64,
 }
 
 impl LinearFamily {
@@ -230,7 +226,7 @@ impl LinearFamily {
         self.radius.iter().map(|r| vec![factor * r; n]).collect()
     }
 
-    /// q A + p B for q > 0, with what was cut off.
+    /// q A + p B for q >= 0, with what was cut off.
     fn at(&self, p: &Integer, q: &Integer) -> BallMatrix<Integer> {
         BallMatrix {
             m: combination(&self.a, q, &self.b, p),
@@ -238,37 +234,20 @@ impl LinearFamily {
         }
     }
 
-    /// factor B.
-    fn direction(&self, factor: &Integer) -> LongMatrix {
-        combination(&self.b, factor, &self.b, &Integer::zero())
-    }
-
     /// The ends over [lo, hi], in units of 1 / (common 2^128) with a common denominator of both.
     fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Ends {
         let common = lo.denom().lcm(hi.unwrap_or(lo).denom());
-        let scale = &common << FRACTION_BITS;
-        let lower = lo.numer() * (&common / lo.denom());
-        let at_lo = self.at(&lower, &common);
-
-        let Some(hi) = hi else {
-            let direction = BallMatrix {
-                m: self.direction(&common),
-                r: self.by_row(&common),
-            };
-            return Ends {
-                at: [at_lo, direction],
-                slope: None,
-                scale,
-                infinite: true,
-            };
+        let at = |t: &Rational| self.at(&cleared(t, &common), &common);
+        let upper = match hi {
+            Some(hi) => at(hi),
+            None => self.at(&common, &Integer::zero()),
         };
 
-        let upper = hi.numer() * (&common / hi.denom());
         Ends {
-            at: [at_lo, self.at(&upper, &common)],
+            at: [at(lo), upper],
             slope: None,
-            scale,
-            infinite: false,
+            scale: &common << FRACTION_BITS,
+            infinite: hi.is_none(),
         }
     }
 
