@@ -38,6 +38,20 @@ struct LdlEnd {
 }
 
 impl LdlEnd {
+    /// A + tB, at infinity B.
+    fn at(name: &'static str, t: Option<&Rational>) -> LdlEnd {
+        let [a, b] = match t {
+            Some(t) => [Rational::one(), t.clone()],
+            None => [Rational::zero(), Rational::one()],
+        };
+        LdlEnd {
+            name,
+            a,
+            b,
+            is_infinite: t.is_none(),
+        }
+    }
+
     /// What is expected of the entries of D here.
     fn expected_sign(&self, is_negative: bool) -> &'static str {
         match (is_negative, self.is_infinite) {
@@ -63,26 +77,8 @@ fn check(rows: &Rows, region: &Region, index: &[usize], ldl: &Ldl) -> Result<(),
         .filter(|i| at_zero.binary_search(i).is_err())
         .collect();
 
-    let lower = LdlEnd {
-        name: "lower",
-        a: Rational::one(),
-        b: Rational::clone(&region.lo),
-        is_infinite: false,
-    };
-    let upper = match &region.hi {
-        Some(hi) => LdlEnd {
-            name: "upper",
-            a: Rational::one(),
-            b: Rational::clone(hi),
-            is_infinite: false,
-        },
-        None => LdlEnd {
-            name: "upper",
-            a: Rational::zero(),
-            b: Rational::one(),
-            is_infinite: true,
-        },
-    };
+    let lower = LdlEnd::at("lower", Some(&region.lo));
+    let upper = LdlEnd::at("upper", region.hi.as_deref());
 
     let first = ldl.lower.diagonal.first();
     let is_negative = first.is_some_and(|d| d.0.is_negative());
