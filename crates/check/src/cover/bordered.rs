@@ -25,7 +25,7 @@
 //! component and the largest row sum. Called by the leaves `root` and `regular` and by `presence`.
 
 use super::ball::{Ball, BallMatrix};
-use super::ends::{LongMatrix, largest_bits};
+use super::ends::{EndMatrix, LongMatrix, largest_bits};
 use super::family::words;
 use super::fault::CoverFault;
 use super::region::Region;
@@ -219,6 +219,12 @@ impl<'a> Bordered<'a> {
         }
     }
 
+    /// The blocks of the corners of a region.
+    pub(super) fn blocks<'m>(&self, corners: &[EndMatrix<'m>]) -> Vec<SupportBlock<'m>> {
+        let of_corner = |corner: &EndMatrix<'m>| self.block(corner.matrix, corner.scale);
+        corners.iter().map(of_corner).collect()
+    }
+
     /// Row i of |I - Y T'|, in units of 1 / [`Bordered::deviation_unit`].
     pub(super) fn deviation(&self, block: &SupportBlock<'_>, i: usize) -> Vec<Integer> {
         let mut row = Vec::with_capacity(self.order());
@@ -273,6 +279,12 @@ impl<'a> Bordered<'a> {
     /// u' T in the same units: the residual T_k' + u'T', and the column of the pivot.
     pub(super) fn left_products(&self, block: &SupportBlock<'_>) -> Vec<Ball<Integer>> {
         self.mirrored().products(&block.mirrored())
+    }
+
+    /// The sum of |T_k' + u'T'|, in the same units.
+    pub(super) fn left_residual(&self, block: &SupportBlock<'_>) -> Integer {
+        let products = self.left_products(block);
+        products[..self.order()].iter().map(Ball::magnitude).sum()
     }
 
     /// The components of |Y (T_'k + T'v)|, in units of the product of those of Y and of `products`.

@@ -134,14 +134,12 @@ fn check_piece(
 
     context.affordable(&region)?;
     let ends = context.ends(&region)?;
-    let mut blocks = Vec::with_capacity(4);
-    for corner in corners(&ends) {
-        blocks.push(witness.bordered.block(corner.matrix, corner.scale));
-    }
+    let corners = corners(&ends);
+    let blocks = witness.bordered.blocks(&corners);
 
     let margin = witness.margin(&blocks)?;
     let theta = witness.theta(&blocks, &margin)?;
-    witness.check_rest(&corners(&ends), &theta)?;
+    witness.check_rest(&corners, &theta)?;
 
     let at_lower = edge(context, &over(&t0, &t0), &witness, &margin)?;
     let at_upper = edge(context, &over(&t1, &t1), &witness, &margin)?;

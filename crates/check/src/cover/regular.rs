@@ -25,14 +25,14 @@
 //!
 //! Input: the corners, the witness on the support. Called by the walk through the trees.
 
-use super::bordered::{Bordered, NullWitness, SupportBlock};
+use super::bordered::{Bordered, NullWitness};
 use super::context::{Context, corner_bits, corners};
 use super::ends::EndMatrix;
 use super::fault::CoverFault;
 use super::leaf::{Leaf, Yield};
 use super::region::Region;
 use crate::certificate::Regular;
-use mceip_exact::{Integer, Rational};
+use mceip_exact::Rational;
 
 impl Leaf for Regular {
     fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
@@ -57,21 +57,13 @@ impl Leaf for Regular {
 
 /// Demands that T is regular on the support.
 fn check_corners(witness: &Bordered<'_>, corners: &[EndMatrix<'_>]) -> Result<(), CoverFault> {
-    let mut blocks: Vec<SupportBlock<'_>> = Vec::with_capacity(corners.len());
-    for corner in corners {
-        blocks.push(witness.block(corner.matrix, corner.scale));
-    }
-
+    let blocks = witness.blocks(corners);
     let rho = witness.norm(&blocks)?;
     let epsilon = witness.error(&blocks, &rho);
 
     let mut largest_residual = Rational::default();
     for (block, corner) in blocks.iter().zip(corners) {
-        let mut residual = Integer::default();
-        for entry in &witness.left_products(block)[..witness.order()] {
-            residual += entry.magnitude();
-        }
-
+        let residual = witness.left_residual(block);
         let unit = &witness.one * corner.scale;
         largest_residual = largest_residual.max(Rational::new(residual, unit));
     }

@@ -274,13 +274,9 @@ fn schur_signs(
 fn schur_sign(witness: &Bordered<'_>, block: &SupportBlock<'_>, norm: &Rational) -> i8 {
     let mut phi = witness.value(&witness.products(block));
 
-    let mut left_residual = Integer::zero();
-    for entry in &witness.left_products(block)[..witness.order()] {
-        left_residual += entry.magnitude();
-    }
-
+    let left_residual = witness.left_residual(block) * &witness.one;
     let error = witness.error(std::slice::from_ref(block), norm);
-    let second_term = Rational::from_integer(left_residual * &witness.one) * error;
+    let second_term = Rational::from_integer(left_residual) * error;
     phi.radius += second_term.ceil().to_integer();
     phi.sign()
 }
