@@ -159,7 +159,10 @@ impl<'a> Anchors<'a> {
             &self.blocks
         };
         if blocks.is_empty() {
-            return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
+            return Err(CoverFault::hypothesis(
+                "mass_sigma > 0 for a reversed anchor",
+                0,
+            ));
         }
 
         let parts = blocks.iter().zip(anchor);
@@ -225,12 +228,12 @@ fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(
     let sigma = bounds.sigma;
     let tau = bounds.tau;
     if !sigma.is_positive() {
-        return Err(hypothesis("sigma > 0", 0));
+        return Err(CoverFault::hypothesis("sigma > 0", 0));
     }
 
     blocks.symmetric()?;
     if tau.is_negative() {
-        return Err(hypothesis("mass_sigma >= 0", 0));
+        return Err(CoverFault::hypothesis("mass_sigma >= 0", 0));
     }
 
     let stiffness = blocks.shifted_free_block(LinearPart::Constant, sigma);
@@ -436,7 +439,7 @@ impl IntegralBlocks {
                     None => a.is_zero() && b.is_zero(),
                 };
                 if !has_mirror {
-                    return Err(hypothesis("T_ff symmetric", i));
+                    return Err(CoverFault::hypothesis("T_ff symmetric", i));
                 }
             }
         }
@@ -891,10 +894,6 @@ fn norms(squares: &[Integer], column_factors: &[Integer]) -> Vec<Integer> {
     }
 
     norms
-}
-
-fn hypothesis(expected: &'static str, row: usize) -> CoverFault {
-    CoverFault::Hypothesis { expected, row }
 }
 
 #[cfg(test)]

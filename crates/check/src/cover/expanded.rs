@@ -98,10 +98,8 @@ impl Expanded {
         }
 
         if lo.is_zero() {
-            return Err(CoverFault::Hypothesis {
-                expected: "a region above 0 for a reversed anchor",
-                row: 0,
-            });
+            let expected = "a region above 0 for a reversed anchor";
+            return Err(CoverFault::hypothesis(expected, 0));
         }
 
         let lower_s = hi.map_or_else(Rational::zero, Rational::recip);
@@ -201,10 +199,8 @@ impl Expanded {
             return Ok(());
         }
 
-        Err(CoverFault::Hypothesis {
-            expected: "a tail above the last finite interval",
-            row: 0,
-        })
+        let expected = "a tail above the last finite interval";
+        Err(CoverFault::hypothesis(expected, 0))
     }
 
     /// Is the condensed pencil linear in t, its remainder included?

@@ -303,6 +303,11 @@ pub enum CoverFault {
 }
 
 impl CoverFault {
+    /// [`CoverFault::Hypothesis`] that this row breaks.
+    pub(super) fn hypothesis(expected: &'static str, row: usize) -> CoverFault {
+        CoverFault::Hypothesis { expected, row }
+    }
+
     /// [`CoverFault::TooLarge`] if `got` exceeds `limit`.
     pub(super) fn at_most(what: &'static str, limit: u64, got: u64) -> Result<(), CoverFault> {
         if got > limit {

@@ -63,10 +63,10 @@ impl Leaf for TailLeaf {
     fn check(&self, at: &Region, context: &Context<'_>) -> Result<Yield, CoverFault> {
         match context.tail {
             Some(from) if from <= at.lo.as_ref() => Ok(Yield::default()),
-            _ => Err(CoverFault::Hypothesis {
-                expected: "a tail that begins at or below the region",
-                row: 0,
-            }),
+            _ => {
+                let expected = "a tail that begins at or below the region";
+                Err(CoverFault::hypothesis(expected, 0))
+            }
         }
     }
 }

@@ -38,10 +38,7 @@ pub(super) fn semidefinite(
 
     match broken {
         None => Ok(()),
-        Some(row) => Err(CoverFault::Hypothesis {
-            expected: what,
-            row,
-        }),
+        Some(row) => Err(CoverFault::hypothesis(what, row)),
     }
 }
 
