@@ -221,8 +221,10 @@ impl<'a> Bordered<'a> {
 
     /// The blocks of the corners of a region.
     pub(super) fn blocks<'m>(&self, corners: &[EndMatrix<'m>]) -> Vec<SupportBlock<'m>> {
-        let of_corner = |corner: &EndMatrix<'m>| self.block(corner.matrix, corner.scale);
-        corners.iter().map(of_corner).collect()
+        let corners = corners.iter();
+        corners
+            .map(|corner| self.block(corner.matrix, corner.scale))
+            .collect()
     }
 
     /// Row i of |I - Y T'|, in units of 1 / [`Bordered::deviation_unit`].

@@ -94,8 +94,10 @@ pub(super) fn of<'a, A: AnchorOfParts, T>(
 /// The blocks of the parts of a pencil, row i of all parts divided by the same power of two.
 fn integral_blocks(parts: &[&Rows]) -> Vec<IntegralBlocks> {
     let bits = row_bits(parts);
-    let of_part = |rows: &&Rows| IntegralBlocks::of(rows, &bits);
-    parts.iter().map(of_part).collect()
+    parts
+        .iter()
+        .map(|rows| IntegralBlocks::of(rows, &bits))
+        .collect()
 }
 
 /// The anchors of a file, whose hypotheses and limits hold, and what is left for their expansions.
@@ -367,8 +369,8 @@ struct Residual {
 impl Residual {
     /// Upper bounds of the norms of the columns of each coefficient.
     fn norms(&self) -> Norms {
-        let of_coefficient = |squares: &Vec<Integer>| norms(squares, &ones(squares.len()));
-        self.squares.iter().map(of_coefficient).collect()
+        let squares = self.squares.iter();
+        squares.map(|sums| norms(sums, &ones(sums.len()))).collect()
     }
 }
 

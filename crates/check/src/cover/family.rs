@@ -45,11 +45,15 @@ impl Family {
     /// is expanded.
     pub(super) fn of_parts(parts: &[&Rows], anchors: Option<&Anchors<'_>>) -> Vec<Family> {
         let bits = row_bits(parts);
-        let of_part = |rows: &&Rows| match anchors {
-            Some(anchors) => Family::Condensed((0..anchors.len()).map(|_| None).collect()),
-            None => Family::Linear(LinearFamily::scaled(rows, &bits)),
-        };
-        parts.iter().map(of_part).collect()
+        let mut families = Vec::with_capacity(parts.len());
+        for rows in parts {
+            families.push(match anchors {
+                Some(anchors) => Family::Condensed((0..anchors.len()).map(|_| None).collect()),
+                None => Family::Linear(LinearFamily::scaled(rows, &bits)),
+            });
+        }
+
+        families
     }
 
     /// Is the anchor with this number expanded, or is there nothing to expand?
@@ -263,11 +267,13 @@ impl LinearFamily {
 /// power of two the row is divided in all of them.
 pub(super) fn row_bits(parts: &[&Rows]) -> Vec<u64> {
     let order = parts.first().map_or(0, |rows| rows.order());
-    let of_row = |i: usize| {
+    let mut bits = Vec::with_capacity(order);
+    for i in 0..order {
         let entries = parts.iter().flat_map(|rows| &rows.rows[i]);
-        largest_bits(entries.map(|(_, a, _)| a)).max(1)
-    };
-    (0..order).map(of_row).collect()
+        bits.push(largest_bits(entries.map(|(_, a, _)| a)).max(1));
+    }
+
+    bits
 }
 
 /// Bits of both ends of an interval.
