@@ -246,26 +246,14 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
     };
     let n = n_s + n_f;
 
-    // The free variables come first; their rows of K1 vanish (16).
-    let k0 = sparse(&gram(&mut rng, n, 1));
-    let mut friction_entries = Vec::new();
-    for i in n_f..n {
-        for j in 0..n {
-            friction_entries.push((i, j, whole(rng.random_range(-6..=6))));
-        }
-    }
-    let k1 = Sparse::from_entries(n, n, friction_entries);
-
     let unknown = unknown(k as u64);
-    let free = (0..n_f).collect();
-    let pencil = match unknown {
-        Unknown::Mu => Pencil::new(k0, k1, free)?,
-        Unknown::Lambda2 => {
-            let friction = rational(rng.random_range(1..=6), 2);
-            let mass = sparse(&gram(&mut rng, n, 1));
-            Pencil::new(k0.add_scaled(&friction, &k1), mass, free)?
-        }
+    let shape = PencilShape {
+        n_s,
+        n_f,
+        identity: 1,
+        coupling: 6,
     };
+    let pencil = shape.pencil(&mut rng, unknown)?;
 
     let mut corners = Vec::new();
     if n_f > 0 {
@@ -279,6 +267,52 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
     let label = format!("random pencil {k} (seed {seed}) n_s={n_s} n_f={n_f} {word}");
     let problem = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
     Ok(Instance::new(label, problem, corners))
+}
+
+/// How large a random admissible pencil is, and how its parts weigh against each other.
+pub(crate) struct PencilShape {
+    pub(crate) n_s: usize,
+    /// Free variables; they come first.
+    pub(crate) n_f: usize,
+    /// The multiple of I in K0 and M.
+    pub(crate) identity: i64,
+    /// Largest entry of K1.
+    pub(crate) coupling: i64,
+}
+
+impl PencilShape {
+    /// K0 and M by [`gram`], K1 with entries of either sign; with lambda^2 sought mu = 1/2 to 3.
+    ///
+    /// # Errors
+    /// [`ModelError`]; for order 0 only.
+    pub(crate) fn pencil(
+        &self,
+        rng: &mut ChaCha8Rng,
+        unknown: Unknown,
+    ) -> Result<Pencil, ModelError> {
+        let n = self.n_s + self.n_f;
+        let k0 = sparse(&gram(rng, n, self.identity));
+
+        // The rows of K1 of the free variables vanish (16).
+        let mut friction_entries = Vec::new();
+        for i in self.n_f..n {
+            for j in 0..n {
+                let entry = rng.random_range(-self.coupling..=self.coupling);
+                friction_entries.push((i, j, whole(entry)));
+            }
+        }
+        let k1 = Sparse::from_entries(n, n, friction_entries);
+
+        let free = (0..self.n_f).collect();
+        match unknown {
+            Unknown::Mu => Pencil::new(k0, k1, free),
+            Unknown::Lambda2 => {
+                let friction = rational(rng.random_range(1..=6), 2);
+                let mass = sparse(&gram(rng, n, self.identity));
+                Pencil::new(k0.add_scaled(&friction, &k1), mass, free)
+            }
+        }
+    }
 }
 
 /// Random mechanical systems with every mixture of free, stick and slip particles, oblique frames,
@@ -295,12 +329,33 @@ pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelEr
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(7_368_787).wrapping_add(k as u64));
     let contact = rng.random_range(1..=4);
     let inner = rng.random_range(0..=2);
-    let n = 2 * contact + inner;
 
     let mut corners = Vec::new();
+    let unknown = unknown(k as u64);
+    let system = system_of_size(&mut rng, contact, inner, &mut corners)?;
+
+    let word = unknown.word();
+    let label =
+        format!("mechanical system {k} (seed {seed}) particles={contact} inner={inner} {word}");
+    let problem = Problem::new(Body::System(system), unknown, Window::all())?;
+    Ok(Instance::new(label, problem, corners))
+}
+
+/// A random system of so many particles with a candidate for contact each, and inner degrees of
+/// freedom; what is met on the way is added to `corners`.
+///
+/// # Errors
+/// [`ModelError`]; for no particles only.
+pub(crate) fn system_of_size(
+    rng: &mut ChaCha8Rng,
+    contact: usize,
+    inner: usize,
+    corners: &mut Vec<Corner>,
+) -> Result<System, ModelError> {
+    let n = 2 * contact + inner;
     let mut particles = Vec::new();
     for index in 0..contact {
-        particles.push(random_particle(&mut rng, index, &mut corners));
+        particles.push(random_particle(rng, index, corners));
     }
 
     let is_lumped = rng.random_range(0..2) == 0;
@@ -308,19 +363,12 @@ pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelEr
         Sparse::zeros(n, n).add_scaled(&whole(2), &Sparse::identity(n))
     } else {
         corners.push(Corner::CoupledMass);
-        sparse(&gram(&mut rng, n, 1))
+        sparse(&gram(rng, n, 1))
     };
 
-    let unknown = unknown(k as u64);
     let friction = rational(rng.random_range(4..=60), 4);
-    let stiffness = sparse(&gram(&mut rng, n, 1));
-    let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
-
-    let word = unknown.word();
-    let label =
-        format!("mechanical system {k} (seed {seed}) particles={contact} inner={inner} {word}");
-    let problem = Problem::new(Body::System(system), unknown, Window::all())?;
-    Ok(Instance::new(label, problem, corners))
+    let stiffness = sparse(&gram(rng, n, 1));
+    System::new(stiffness, Some(mass), Some(friction), particles)
 }
 
 /// The first particle always slips, so that there is a problem.
