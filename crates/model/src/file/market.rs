@@ -14,7 +14,8 @@
 
 use super::order::require_order;
 use crate::ModelError;
-use mceip_exact::{Rational, Sparse, parse};
+use mceip_exact::{Integer, Rational, Sparse, nearest_decimal, parse};
+use num_traits::{One as _, Zero as _};
 use std::collections::BTreeSet;
 
 /// Reads a real or integer Matrix Market file, `coordinate` or `array`, `general` or `symmetric`;
@@ -66,6 +67,49 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
     refuse_twice(what, &entries)?;
 
     Ok(Sparse::from_entries(layout.rows, layout.cols, entries))
+}
+
+/// The matrix as a coordinate file; a number without a finite decimal expansion as a fraction.
+pub fn write_matrix_market(m: &Sparse) -> String {
+    let mut lines = String::new();
+    for (i, j, value) in m.entries() {
+        lines += &format!("{} {} {}\n", i + 1, j + 1, exact_text(value));
+    }
+
+    let mut out = String::from("%%MatrixMarket matrix coordinate real general\n");
+    if lines.contains('/') {
+        out += FRACTIONS;
+    }
+    out += &format!("{} {} {}\n", m.rows(), m.cols(), m.entries().count());
+    out + &lines
+}
+
+/// The comment of a file with fractions.
+pub const FRACTIONS: &str = "% p/q is the fraction; other readers may take it for p\n";
+
+/// The most digits of an exact decimal that is written: those of a double are fewer.
+const EXACT_DIGITS: usize = 770;
+
+/// A decimal that is exactly the number, or else a fraction.
+fn exact_text(value: &Rational) -> String {
+    let mut rest = value.denom().clone();
+    for prime in [2u8, 5] {
+        let prime = Integer::from(prime);
+        while (&rest % &prime).is_zero() {
+            rest /= &prime;
+        }
+    }
+    if !rest.is_one() {
+        return value.to_string();
+    }
+
+    for digits in [17, 60, EXACT_DIGITS] {
+        let decimal = nearest_decimal(value, digits);
+        if parse(&decimal).is_ok_and(|read| read == *value) {
+            return decimal;
+        }
+    }
+    value.to_string()
 }
 
 /// What the first line says.
@@ -304,6 +348,27 @@ mod tests {
             let message = read(value).unwrap_err().to_string();
             assert!(message.contains("an integer, as line 1 says"), "{message}");
         }
+    }
+
+    /// Decimals where there are, so that other programs read the file; 1/3 has none.
+    #[test]
+    fn what_is_written_is_read_back() {
+        let double = mceip_exact::from_f64(0.1).unwrap();
+        let values = [whole(0), whole(-7), rational(1, 8), rational(1, 3), double];
+        let entries = values
+            .into_iter()
+            .enumerate()
+            .map(|(k, v)| (k / 3, k % 3, v));
+        let m = Sparse::from_entries(2, 3, entries);
+
+        let text = write_matrix_market(&m);
+        assert!(
+            text.contains("\n1 3 0.125\n2 1 1/3\n2 2 0.1000000000000000055511"),
+            "{text}"
+        );
+        let read = read_matrix_market("K", &text).unwrap();
+        assert!(read.entries().eq(m.entries()));
+        assert_eq!((read.rows(), read.cols()), (2, 3));
     }
 
     /// Lines end in LF or in CR LF; a CR alone is part of a word.

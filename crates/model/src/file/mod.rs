@@ -19,11 +19,11 @@ mod unique;
 mod write;
 
 pub use loads::{LOADS_FORMAT, LoadsFile, read_loads};
-pub use market::read_matrix_market;
+pub use market::{FRACTIONS, read_matrix_market, write_matrix_market};
 pub use number::Number;
 pub use object::{HasWords, Object, Word, WordOrKind};
 pub use order::{MAX_ORDER, require_order};
-pub use write::{write_loads, write_problem, write_sparse};
+pub use write::{write_loads, write_problem, write_problem_beside_matrices, write_sparse};
 
 use super::{Coordinates, ErrorLocation, ModelError, Problem, System, Unknown, Window};
 use mceip_exact::Rational;

@@ -4,7 +4,7 @@
 //! Every number is written as an exact string, matrices as sparse entries, so that reading the file
 //! gives an equal problem or body with the same digest.
 
-use super::{LOADS_FORMAT, LoadsFile, Number, PROBLEM_FORMAT};
+use super::{LOADS_FORMAT, LoadsFile, Number, PROBLEM_FORMAT, write_matrix_market};
 use crate::LoadedBody;
 use crate::{Body, ContactState, Coordinates, Particle, Pencil, Problem, System, Window};
 use mceip_exact::{Rational, Sparse};
@@ -29,6 +29,33 @@ pub fn write_problem(problem: &Problem) -> String {
     };
 
     Value::Object(out).to_string()
+}
+
+/// The problem as `problem.json` and the Matrix Market files that it names: the names and contents
+/// of files for one folder. Read from there it has the digest of `problem`.
+pub fn write_problem_beside_matrices(problem: &Problem) -> Vec<(&'static str, String)> {
+    let (part, matrices) = match problem.body() {
+        Body::Pencil(pencil) => (
+            "pencil",
+            vec![("a", "A.mtx", pencil.a()), ("b", "B.mtx", pencil.b())],
+        ),
+        Body::System(system) => {
+            let mut matrices = vec![("stiffness", "K.mtx", system.stiffness())];
+            matrices.extend(system.mass().map(|mass| ("mass", "M.mtx", mass)));
+            ("system", matrices)
+        }
+    };
+
+    // Our own writer's JSON is read without error.
+    let mut out: Value = serde_json::from_str(&write_problem(problem)).unwrap_or_default();
+    let mut files = Vec::new();
+    for (field, file, matrix) in matrices {
+        out[part][field] = json!({ "matrix_market": file });
+        files.push((file, write_matrix_market(matrix)));
+    }
+
+    files.push(("problem.json", format!("{out:#}\n")));
+    files
 }
 
 /// The body and its loads as `mceip-loads/1`. The held dofs are eliminated: what they exert is
