@@ -15,8 +15,8 @@ pub struct CostSeries {
     pub points: Vec<(f64, f64)>,
 }
 
-const WIDTH: f64 = 760.0;
-const AREA: Rectangle = Rectangle {
+pub(super) const WIDTH: f64 = 760.0;
+pub(super) const AREA: Rectangle = Rectangle {
     left: 84.0,
     top: 48.0,
     right: WIDTH - 30.0,
@@ -24,13 +24,13 @@ const AREA: Rectangle = Rectangle {
 };
 
 /// How a series is drawn: the dash of its line and the fill of its dots.
-struct Style {
-    dash: &'static str,
-    fill: &'static str,
+pub(super) struct Style {
+    pub(super) dash: &'static str,
+    pub(super) fill: &'static str,
 }
 
 /// The styles of the series in turn.
-const STYLES: [Style; 4] = [
+pub(super) const STYLES: [Style; 4] = [
     Style {
         dash: "",
         fill: "#000",
@@ -57,9 +57,7 @@ pub fn cost_picture(title: &str, order: &str, series: &[CostSeries]) -> Picture 
     let y = logarithmic("CPU seconds", points.iter().map(|p| p.1));
     let chart = Chart::new(AREA, &x, &y);
 
-    let key_rows = series.len().div_ceil(2) as f64;
-    let height = AREA.bottom + 62.0 + 20.0 * key_rows;
-    let mut picture = Picture::new(title, WIDTH, height);
+    let mut picture = Picture::new(title, WIDTH, height_with_keys(series.len()));
     picture.push_heading(AREA.left, 24.0);
     picture.push(chart.frame(&x, &y));
 
@@ -74,10 +72,15 @@ pub fn cost_picture(title: &str, order: &str, series: &[CostSeries]) -> Picture 
             picture.push(dot(chart.point(*point), 3.5, style.fill, *point, tip));
         }
 
-        push_key(&mut picture, k, one, style);
+        push_key(&mut picture, k, &one.name, style);
     }
 
     picture
+}
+
+/// Height of a picture of [`AREA`] with the keys of so many series below it.
+pub(super) fn height_with_keys(series: usize) -> f64 {
+    AREA.bottom + 62.0 + 20.0 * series.div_ceil(2) as f64
 }
 
 /// A logarithmic axis with some room at both ends.
@@ -92,7 +95,7 @@ fn logarithmic(label: &str, values: impl Iterator<Item = f64>) -> Axis<'_> {
 }
 
 /// The key of the series k, two in a row below the chart.
-fn push_key(picture: &mut Picture, k: usize, series: &CostSeries, style: &Style) {
+pub(super) fn push_key(picture: &mut Picture, k: usize, name: &str, style: &Style) {
     let column = (k % 2) as f64;
     let row = (k / 2) as f64;
     let x = AREA.left + 330.0 * column;
@@ -101,8 +104,7 @@ fn push_key(picture: &mut Picture, k: usize, series: &CostSeries, style: &Style)
     let key = line((x, y - 4.5), (x + 36.0, y - 4.5), "#000", 1.4);
     picture.push(dashed(key, style.dash));
 
-    let name = series.name.clone();
     let middle = (x + 18.0, y - 4.5);
-    picture.push(dot(middle, 3.5, style.fill, (0.0, 0.0), name).unclassed());
-    picture.push(text(x + 44.0, y, "start", series.name.as_str()));
+    picture.push(dot(middle, 3.5, style.fill, (0.0, 0.0), name.into()).unclassed());
+    picture.push(text(x + 44.0, y, "start", name));
 }

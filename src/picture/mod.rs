@@ -8,8 +8,8 @@
 //! `markup` a tree of elements, `drawing` the picture made of them, `scale` and `chart` axes,
 //! `marker` and `legend` the contact states; then a file for each picture: [`body_picture`],
 //! [`path_picture`], [`threshold_picture`], [`branch_picture`],
-//! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`motion_picture`]; [`ReportPage`]
-//! puts them into a page. `vtu` writes a body for ParaView.
+//! [`presence_picture`], [`table1_picture`], [`cost_picture`], [`profile_picture`],
+//! [`motion_picture`]; [`ReportPage`] puts them into a page. `vtu` writes a body for ParaView.
 
 mod body;
 mod branch;
@@ -24,6 +24,7 @@ mod path;
 #[cfg(feature = "png")]
 mod png;
 mod presence;
+mod profile;
 mod report;
 mod scale;
 mod table1;
@@ -41,6 +42,7 @@ pub use path::{PathDrawing, path_picture};
 #[cfg(feature = "png")]
 pub use png::PngError;
 pub use presence::{Presence, PresenceChart, PresenceRange, presence_picture};
+pub use profile::{PROFILES, ProfileSeries, profile_picture};
 pub use report::{Content, ReportPage, Section};
 pub use scale::{Scale, Spread};
 pub use table1::table1_picture;
