@@ -1,15 +1,18 @@
 //! `mceip conform`: somebody else's program against problems with complete exact answers.
 //!
 //! Each case of the pack, and each random case, is sent to the program on stdin; its report is
-//! judged by `mceip_testkit`. The rules are in `spec/conform.md`.
+//! judged by `mceip_testkit`. Runs that were printed as JSON are compared by `--compare`. The rules
+//! are in `spec/conform.md`.
 
-use super::common::{CliError, exit, print, require_count, require_threads, seconds};
+use super::common::{CliError, aside, exit, print, require_count, require_threads, seconds, text};
 use super::job::Job;
 use super::output::{Output, make};
-use mceip_model::file::write_problem;
+use crate::picture::{PROFILES, ProfileSeries, profile_picture};
+use mceip_model::file::{FRACTIONS, write_problem, write_problem_beside_matrices};
 use mceip_testkit::conform::{
-    Case, ConformPlan, Flag, Group, INDEX_FORMAT, PACK_FORMAT, ProcessLimits, groups, pack_files,
-    read_pack, run, summarise,
+    Case, CasePack, ConformComparison, ConformPlan, ConformRun, Flag, Group, INDEX_FORMAT,
+    PACK_FORMAT, PACK_VERSION, PackName, ProcessLimits, RunHead, groups, measured_difficulty,
+    pack_files, read_pack, run, summarise, tier2,
 };
 use std::path::{Path, PathBuf};
 
@@ -18,11 +21,49 @@ use std::path::{Path, PathBuf};
 pub(super) struct Args {
     /// The program and its arguments, after `--`. For each case it gets a problem (mceip-problem/1)
     /// on stdin and prints a report (mceip-solutions/1) on stdout.
-    #[arg(last = true, required_unless_present_any = ["write", "list", "print", "flags"])]
+    #[arg(
+        last = true,
+        required_unless_present_any = ["write", "list", "print", "flags", "compare", "export_mtx"]
+    )]
     command: Vec<String>,
     /// Write the pack to this folder instead of running anything.
     #[arg(long, value_name = "DIR", conflicts_with = "command")]
     write: Option<PathBuf>,
+    /// With --write: 1 for the small cases with exact answers, 2 for those of order 10 to 200,
+    /// which takes minutes.
+    #[arg(
+        long,
+        requires = "write",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u8).range(1..=2)
+    )]
+    tier: u8,
+    /// With --write: say of each case how hard it is, by these runs (what --json printed).
+    #[arg(long, value_name = "RUN", requires = "write", num_args = 1..)]
+    difficulty: Vec<PathBuf>,
+    /// Compare runs over the same cases (what --json printed, two or more files): Markdown.
+    #[arg(long, value_name = "RUN", num_args = 2.., conflicts_with_all = ["command", "write"])]
+    compare: Vec<PathBuf>,
+    /// With --compare: write the tables as LaTeX (booktabs) to this file.
+    #[arg(
+        long,
+        value_name = "OUT",
+        requires = "compare",
+        conflicts_with = "command"
+    )]
+    latex: Option<PathBuf>,
+    /// With --compare: draw a performance profile (Dolan and Moré 2002) to this file.
+    #[arg(
+        long,
+        value_name = "OUT",
+        requires = "compare",
+        conflicts_with = "command"
+    )]
+    svg: Option<PathBuf>,
+    /// Write each case to a folder of its own in this one: matrices as Matrix Market, the problem
+    /// that names them, its answer.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["command", "write", "compare"])]
+    export_mtx: Option<PathBuf>,
     /// Print a line for each case: its id, flags and comment.
     #[arg(long, conflicts_with_all = ["command", "write"])]
     list: bool,
@@ -39,7 +80,7 @@ pub(super) struct Args {
     /// Random cases besides those of the pack.
     #[arg(long, default_value_t = 0)]
     count: usize,
-    /// Seed of the random cases.
+    /// Seed of the random cases, and of the order of --anonymous.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Only this case (may be given more than once).
@@ -48,6 +89,9 @@ pub(super) struct Args {
     /// Only cases with this flag (may be given more than once; see --flags).
     #[arg(long, value_name = "FLAG")]
     only: Vec<String>,
+    /// Send the cases in a random order (--seed), under names that do not tell which they are.
+    #[arg(long)]
+    anonymous: bool,
     /// Send mechanical systems as their reduced pencils, for programs that know only those.
     #[arg(long)]
     as_pencil: bool,
@@ -82,11 +126,25 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if args.flags {
         return print_flags();
     }
+    if !args.compare.is_empty() {
+        return compare(args);
+    }
 
-    let mut groups = match &args.pack {
-        None => groups()?,
+    let mut pack = match &args.pack {
         Some(folder) => read_pack(folder)?,
+        None => CasePack {
+            name: PackName::of_tier(args.tier),
+            groups: if args.tier == 1 { groups()? } else { tier2()? },
+        },
     };
+    if let Some(folder) = &args.write {
+        say_difficulties(args, &mut pack)?;
+        let mut files = companions();
+        files.extend(pack_files(&pack)?);
+        return write(folder, &files);
+    }
+
+    let CasePack { name, mut groups } = pack;
     select(&mut groups, "case", &args.case)?;
     if args.list {
         return print_list(args, &groups);
@@ -95,11 +153,8 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
         select(&mut groups, "print", std::slice::from_ref(id))?;
         return print_cases(args, &groups);
     }
-
-    if let Some(folder) = &args.write {
-        let mut files = companions();
-        files.extend(pack_files(&groups)?);
-        return write(folder, &files);
+    if let Some(folder) = &args.export_mtx {
+        return export(args, folder, &groups);
     }
 
     let plan = plan(args, groups)?;
@@ -110,13 +165,19 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     job.end();
 
     let summary = summarise(&outcomes);
+    let head = RunHead {
+        command: &args.command,
+        version: env!("CARGO_PKG_VERSION"),
+        pack: &name,
+        settings: &settings(args),
+    };
     let text = if args.json {
-        format!("{:#}\n", summary.json(&args.command))
+        format!("{:#}\n", summary.json(&head))
     } else {
         summary.text()
     };
     if let Some(output) = markdown {
-        output.write(&summary.markdown(&args.command, &settings(args)))?;
+        output.write(&summary.markdown(&head))?;
     }
     print(&text)?;
 
@@ -145,6 +206,9 @@ fn settings(args: &Args) -> String {
     if args.count > 0 {
         words.push(format!("--count {} --seed {}", args.count, args.seed));
     }
+    if args.anonymous {
+        words.push(format!("--anonymous --seed {}", args.seed));
+    }
     if args.as_pencil {
         words.push("--as-pencil".into());
     }
@@ -166,6 +230,7 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<ConformPlan, CliError> {
         groups,
         random: args.count,
         seed: args.seed,
+        anonymous: args.anonymous,
         as_pencil: args.as_pencil,
         by_lines: args.lines,
         only: flags(&args.only)?,
@@ -247,10 +312,112 @@ fn print_cases(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
     Ok(exit::DONE)
 }
 
+/// The runs in these files, each by the name of its file.
+fn read_runs(paths: &[PathBuf]) -> Result<Vec<ConformRun>, CliError> {
+    let mut runs = Vec::new();
+    for path in paths {
+        let name = path.file_stem().map(|stem| stem.to_string_lossy());
+        let source = text("a run", path)?;
+        runs.push(ConformRun::read(&name.unwrap_or_default(), &source)?);
+    }
+    Ok(runs)
+}
+
+/// Says of each case that all runs have how hard it is.
+fn say_difficulties(args: &Args, pack: &mut CasePack) -> Result<(), CliError> {
+    let runs = read_runs(&args.difficulty)?;
+    for draft in pack.groups.iter_mut().flat_map(|group| &mut group.drafts) {
+        draft.difficulty = measured_difficulty(&runs, &draft.id);
+    }
+    Ok(())
+}
+
+/// Prints the runs side by side, and writes what else is asked for.
+fn compare(args: &Args) -> Result<u8, CliError> {
+    let inputs: Vec<&Path> = args.compare.iter().map(PathBuf::as_path).collect();
+    let markdown = Output::prepare_if("markdown", args.markdown.as_deref(), &inputs)?;
+    let latex = Output::prepare_if("latex", args.latex.as_deref(), &inputs)?;
+    let svg = Output::prepare_if("svg", args.svg.as_deref(), &inputs)?;
+    if svg.is_some() && inputs.len() > PROFILES {
+        let expected = "at most four runs in one picture";
+        return Err(CliError::option("svg", expected, &inputs.len().to_string()));
+    }
+
+    let comparison = ConformComparison::new(read_runs(&args.compare)?)?;
+    let table = comparison.markdown();
+    if let Some(output) = markdown {
+        output.write(&table)?;
+    }
+    if let Some(output) = latex {
+        output.write(&comparison.latex())?;
+    }
+    if let Some(output) = svg {
+        let profiles = comparison
+            .profile()
+            .into_iter()
+            .map(|profile| ProfileSeries {
+                name: profile.name,
+                steps: profile.steps,
+            });
+        let profiles: Vec<ProfileSeries> = profiles.collect();
+        output.write(&profile_picture("Performance profile", &profiles).to_svg())?;
+    }
+
+    print(&table)?;
+    Ok(exit::DONE)
+}
+
+/// Writes each case with one of the flags of `--only` to a folder of its own, by its id.
+fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> {
+    let only = flags(&args.only)?;
+    make(folder)?;
+    let mut count = 0;
+    let mut fractions = 0;
+    for draft in groups.iter().flat_map(|group| &group.drafts) {
+        let case = Case::answer(draft, args.as_pencil)?;
+        if !case.has_any(&only) {
+            continue;
+        }
+
+        let mut files = write_problem_beside_matrices(&case.problem);
+        files.push(("answer.json", format!("{:#}\n", case.answer_json())));
+        let place = folder.join(file_name(&case.id)?);
+        make(&place)?;
+        for (name, text) in &files {
+            fractions += usize::from(text.contains(FRACTIONS));
+            Output::prepare("export-mtx", &place.join(name), &[])?.write(text)?;
+        }
+        count += 1;
+    }
+
+    print(&format!("{count} cases in {}\n", folder.display()))?;
+    if fractions > 0 {
+        aside(&format!(
+            "mceip: {fractions} of the matrices have fractions p/q: `mceip` reads them, scipy.io.mmread \
+             and others take p for the number without a word"
+        ));
+    }
+    Ok(exit::DONE)
+}
+
+/// The id, if it may be the name of a folder.
+fn file_name(id: &str) -> Result<&str, CliError> {
+    let has_plain_letters = id
+        .chars()
+        .all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    if has_plain_letters && !id.is_empty() {
+        Ok(id)
+    } else {
+        let expected = "ids of letters, digits, - and _";
+        Err(CliError::option("export-mtx", expected, id))
+    }
+}
+
 /// What makes the folder stand alone: a page for its reader, licences, schemas, version.
 fn companions() -> Vec<(String, String)> {
     let version = env!("CARGO_PKG_VERSION");
-    let version = format!("{PACK_FORMAT}, {INDEX_FORMAT}; written by mceip {version}\n");
+    let version =
+        format!("{PACK_VERSION} ({PACK_FORMAT}, {INDEX_FORMAT}; written by mceip {version})\n");
 
     let mut files = vec![("VERSION".to_owned(), version)];
     for (name, text) in COMPANIONS {
@@ -260,10 +427,14 @@ fn companions() -> Vec<(String, String)> {
 }
 
 /// Files of the repository that go into the folder of a pack: name there, content.
-const COMPANIONS: [(&str, &str); 7] = [
+const COMPANIONS: [(&str, &str); 8] = [
     (
         "README.md",
         include_str!("../../spec/conformance-pack/README.md"),
+    ),
+    (
+        "CITATION.cff",
+        include_str!("../../spec/conformance-pack/CITATION.cff"),
     ),
     ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
     ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE")),

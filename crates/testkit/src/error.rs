@@ -88,18 +88,43 @@ pub enum TestkitError {
         /// The limit.
         source: OracleError,
     },
-    /// The answer in the pack is not the one the plain enumerator finds.
+    /// The answer in the pack is not the one that is found.
     #[error("{case}: the answer in the pack is not the exact one")]
     Answer {
         /// The case.
         case: String,
     },
-    /// A word that is no flag.
-    #[error("{case}: expected a flag of spec/conform.md, got {got:?}")]
-    Flag {
+    /// A case whose answer should be proved to be complete, and is not.
+    #[error(
+        "{case}: expected a complete set of single solutions, got {open} open regions and \
+         {families} families"
+    )]
+    NotProved {
         /// The case.
         case: String,
+        /// Regions left open.
+        open: usize,
+        /// Cones and continua.
+        families: usize,
+    },
+    /// A word that a case may not have there.
+    #[error("{case}: expected {what}, got {got:?}")]
+    Word {
+        /// The case.
+        case: String,
+        /// What it may be.
+        what: &'static str,
         /// The word.
+        got: String,
+    },
+    /// A run that cannot be compared with the others.
+    #[error("{run}: expected {expected}, got {got}")]
+    OtherRun {
+        /// The run.
+        run: String,
+        /// What it must be.
+        expected: String,
+        /// What it is.
         got: String,
     },
     /// A file of the pack differs from its digest.

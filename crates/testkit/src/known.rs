@@ -154,9 +154,7 @@ pub fn complete_graph(n: usize) -> Result<Known, ModelError> {
 /// # Errors
 /// [`ModelError::Empty`] for n = 0.
 pub fn z_matrix(n: usize) -> Result<Known, ModelError> {
-    let minus_adjacency = symmetric(n, &path_edges(n), -1);
-    let pencil = Pencil::new(minus_adjacency, Sparse::identity(n), vec![])?;
-
+    let pencil = z_matrix_pencil(n)?;
     let all_slip = Part::path((0..n).collect());
     let expected = answer(vec![all_slip.solution(n, &[])], Vec::new(), n);
     Known::new(
@@ -165,6 +163,15 @@ pub fn z_matrix(n: usize) -> Result<Known, ModelError> {
         pencil,
         expected,
     )
+}
+
+/// The pencil of [`z_matrix`], of any order.
+///
+/// # Errors
+/// [`ModelError::Empty`] for n = 0.
+pub(crate) fn z_matrix_pencil(n: usize) -> Result<Pencil, ModelError> {
+    let minus_adjacency = symmetric(n, &path_edges(n), -1);
+    Pencil::new(minus_adjacency, Sparse::identity(n), vec![])
 }
 
 /// tI - diag(d): e_i at each d_i >= 0; equal entries span a cone.

@@ -1,16 +1,18 @@
 //! A case: a problem, its complete exact answer, and what it is about.
 //!
-//! A [`Draft`] is a problem without an answer, as `groups` makes it or `pack` reads it.
-//! [`Case::answer`] answers it by the plain oracle. Cases are written to the pack and sent to
-//! foreign programs, whose reports `judge` compares with the answer.
+//! A [`Draft`] is a problem without an answer, as `groups` and `tier2` make it or `pack` reads it.
+//! [`Case::answer`] answers it by the plain oracle, or, where that is beyond it, as `certified`
+//! says. Cases are written to the pack and sent to foreign programs, whose reports `judge` compares
+//! with the answer.
 
-use super::flag::{Flag, derive};
+use super::certified::{CertifiedAnswer, Completeness};
+use super::flag::{Flag, of_certified, of_enumeration};
 use crate::error::TestkitError;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Problem, Reduced};
-use mceip_oracle::{Enumeration, enumerate};
+use mceip_oracle::{Enumeration, Solution, enumerate};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -25,6 +27,20 @@ pub struct Draft {
     pub flags: Vec<Flag>,
     /// The problem.
     pub problem: Problem,
+    /// What is known of its answer where the plain oracle does not find it.
+    pub completeness: Option<Completeness>,
+    /// The answer that a pack gives, for such a case.
+    pub listed: Option<Value>,
+    /// How hard it has been found to be.
+    pub difficulty: Option<Difficulty>,
+}
+
+worded! {
+    /// How the rivals of spec/rivals.md did on a case: each of them labels it by what it reported.
+    Difficulty:
+    Easy "easy" "Every rival is correct.",
+    Medium "medium" "Neither of the two others.",
+    Hard "hard" "No rival is correct, and none finds half of the solutions.",
 }
 
 /// Drafts that belong together: a file of the pack.
@@ -38,7 +54,25 @@ pub struct Group {
     pub drafts: Vec<Draft>,
 }
 
-/// A problem with its complete answer.
+/// The answer of a case.
+#[derive(Debug, Clone)]
+pub enum CaseAnswer {
+    /// Complete and exact, by the plain oracle.
+    Enumerated(Enumeration),
+    /// What the checker has accepted.
+    Certified(CertifiedAnswer),
+}
+
+/// A solution of an answer in decimals.
+#[derive(Debug, Clone)]
+pub(super) struct ListedPoint {
+    /// Indices with x_i > 0.
+    pub(super) support: Vec<usize>,
+    pub(super) value: String,
+    pub(super) x: Vec<String>,
+}
+
+/// A problem with its answer.
 #[derive(Debug, Clone)]
 pub struct Case {
     /// Unique within the pack.
@@ -51,27 +85,41 @@ pub struct Case {
     pub problem: Problem,
     /// Its reduction.
     pub reduced: Reduced,
-    /// The complete answer of the plain oracle.
-    pub answer: Enumeration,
+    /// Its answer.
+    pub answer: CaseAnswer,
+    /// How hard it has been found to be.
+    pub difficulty: Option<Difficulty>,
 }
 
 impl Case {
-    /// Answers a draft by the plain oracle. With `as_pencil` a system is replaced by its reduced
-    /// pencil first (another problem with another digest, and the same values and x).
+    /// Answers a draft. With `as_pencil` a system is replaced by its reduced pencil first (another
+    /// problem with another digest, and the same values and x).
     ///
     /// # Errors
     /// [`TestkitError::Oracle`] for a problem beyond the plain oracle, [`TestkitError::Problem`]
-    /// for a system that lacks what its unknown needs.
+    /// for a system that lacks what its unknown needs, and what [`CertifiedAnswer`] is refused for.
     pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, TestkitError> {
         let reduced = reduce(&draft.problem).and_then(Reduced::without_zero);
         let reduced = reduced.map_err(|e| TestkitError::problem(&draft.id, e))?;
-        let answer = enumerate(&reduced.pencil, draft.problem.window());
-        let answer = answer.map_err(|source| TestkitError::Oracle {
-            case: draft.id.clone(),
-            source,
-        })?;
 
-        let mut flags = derive(&draft.problem, &reduced, &answer);
+        let answer = match draft.completeness {
+            None => {
+                let found = enumerate(&reduced.pencil, draft.problem.window());
+                CaseAnswer::Enumerated(found.map_err(|source| TestkitError::Oracle {
+                    case: draft.id.clone(),
+                    source,
+                })?)
+            }
+            Some(completeness) => {
+                let found = CertifiedAnswer::of_draft(draft, &reduced, completeness)?;
+                CaseAnswer::Certified(found)
+            }
+        };
+
+        let mut flags = match &answer {
+            CaseAnswer::Enumerated(found) => of_enumeration(&draft.problem, &reduced, found),
+            CaseAnswer::Certified(found) => of_certified(&draft.problem, &reduced, found),
+        };
         flags.extend(&draft.flags);
 
         let mut case = Case {
@@ -81,6 +129,7 @@ impl Case {
             problem: draft.problem.clone(),
             reduced,
             answer,
+            difficulty: draft.difficulty,
         };
         if as_pencil {
             case.replace_by_its_pencil()
@@ -98,13 +147,62 @@ impl Case {
 
         self.problem = pencil.named(self.id.clone());
         self.reduced = reduce(&self.problem)?.without_zero()?;
+        if let CaseAnswer::Certified(answer) = &mut self.answer {
+            answer.is_about_the_pencil(&self.problem);
+        }
         Ok(())
     }
 
-    /// The complete answer as `mceip-solutions/1`, without the list of families.
+    /// The same under another name, without comment and warnings: nothing in it tells which case it
+    /// is. Digest and answer stay.
+    pub(super) fn problem_named(&self, name: String) -> Problem {
+        let mut problem = self.problem.clone().named(name);
+        problem.comment = None;
+        problem.warnings.clear();
+        problem
+    }
+
+    /// What is known of the answer where the plain oracle has not made it.
+    pub fn completeness(&self) -> Option<Completeness> {
+        match &self.answer {
+            CaseAnswer::Enumerated(_) => None,
+            CaseAnswer::Certified(answer) => Some(answer.completeness),
+        }
+    }
+
+    /// How many parts its answer has: solutions, cones, continua.
+    pub fn parts(&self) -> usize {
+        match &self.answer {
+            CaseAnswer::Enumerated(answer) => {
+                answer.solutions.len() + answer.cones.len() + answer.ranges.len()
+            }
+            CaseAnswer::Certified(answer) => answer.cover.solutions.len(),
+        }
+    }
+
+    /// The solutions of its answer, without cones and continua.
+    pub(super) fn points(&self) -> Vec<ListedPoint> {
+        match &self.answer {
+            CaseAnswer::Enumerated(answer) => {
+                let slip = self.reduced.pencil.slip();
+                let of = |s: &Solution| ListedPoint::of_solution(s, &slip);
+                answer.solutions.iter().map(of).collect()
+            }
+            CaseAnswer::Certified(answer) => answer.points(),
+        }
+    }
+
+    /// The answer as `mceip-solutions/1`; an enumerated one without the list of families.
     pub fn answer_json(&self) -> Value {
+        match &self.answer {
+            CaseAnswer::Enumerated(answer) => self.enumerated_json(answer),
+            CaseAnswer::Certified(answer) => answer.report.clone(),
+        }
+    }
+
+    fn enumerated_json(&self, found: &Enumeration) -> Value {
         let mut solutions = Vec::new();
-        for solution in &self.answer.solutions {
+        for solution in &found.solutions {
             let listed = Listed::of_solution(&self.problem, &self.reduced, solution);
             solutions.push(listed);
         }
@@ -113,12 +211,12 @@ impl Case {
             problem: &self.problem,
             reduced: &self.reduced,
             solutions,
-            claim: Claimed::complete_if(self.answer.is_complete_list()),
+            claim: Claimed::complete_if(found.is_complete_list()),
             evidence: format!(
                 "plain enumeration of {} supports, exact",
-                self.answer.supports_total
+                found.supports_total
             ),
-            enumeration: Some(&self.answer),
+            enumeration: Some(found),
             cover: None,
         });
 
@@ -135,13 +233,23 @@ impl Case {
         let problem = write_problem(&self.problem);
         let problem: Value = serde_json::from_str(&problem).unwrap_or_default();
 
-        json!({
+        let mut case = json!({
             "id": self.id,
             "comment": self.comment,
             "flags": self.flag_words(),
             "problem": problem,
             "answer": self.answer_json(),
-        })
+        });
+        if let CaseAnswer::Certified(answer) = &self.answer {
+            case["completeness"] = json!(answer.completeness.word());
+            if let Some(digest) = &answer.certificate {
+                case["certificate_sha256"] = json!(digest);
+            }
+        }
+        if let Some(difficulty) = self.difficulty {
+            case["difficulty"] = json!(difficulty.word());
+        }
+        case
     }
 
     /// Its flags as they stand in files.
@@ -156,7 +264,25 @@ impl Case {
 
     /// Is there anything to be found?
     pub fn has_solutions(&self) -> bool {
-        let answer = &self.answer;
-        !answer.solutions.is_empty() || !answer.cones.is_empty() || !answer.ranges.is_empty()
+        self.parts() > 0
     }
 }
+
+impl ListedPoint {
+    /// A solution of the enumerator; `slip` are the complementarity variables.
+    pub(super) fn of_solution(solution: &Solution, slip: &[usize]) -> ListedPoint {
+        ListedPoint {
+            support: solution.slip.clone(),
+            value: solution.decimal(DIGITS),
+            x: solution.x_decimals(slip, DIGITS),
+        }
+    }
+
+    /// `value` and `x` as a foreign program gives them.
+    pub(super) fn entry(&self) -> Value {
+        json!({ "value": self.value, "x": self.x })
+    }
+}
+
+/// Significant digits of a [`ListedPoint`].
+const DIGITS: usize = 17;

@@ -1,9 +1,10 @@
 //! Flags of cases: what a case is about, and the class of bugs it catches.
 //!
-//! A few flags only the maker of a case can know; all others are read off the problem and its exact
-//! answer by [`derive`]. Called by `case` when a draft is answered, and by `summary`, which counts
-//! outcomes by flag.
+//! A few flags only the maker of a case can know; all others are read off the problem and its
+//! answer by [`of_enumeration`] and [`of_certified`]. Called by `case` when a draft is answered,
+//! and by `summary`, which counts outcomes by flag.
 
+use super::certified::{CertifiedAnswer, Completeness};
 use mceip_exact::{Algebraic, Rational, parse, rational, whole};
 use mceip_model::{Body, ContactState, Pencil, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, Solution};
@@ -63,11 +64,6 @@ worded! {
 }
 
 impl Flag {
-    /// The flag with this word.
-    pub fn of_word(word: &str) -> Option<Flag> {
-        Flag::ALL.iter().copied().find(|f| f.word() == word)
-    }
-
     /// Can only the maker of a case know it?
     pub(super) fn is_given(self) -> bool {
         matches!(
@@ -78,15 +74,35 @@ impl Flag {
 }
 
 /// Every flag that the problem and its exact answer show.
-pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration) -> BTreeSet<Flag> {
-    let mut shown = ShownFlags::default();
-    shown.look_at_problem(problem);
-    shown.look_at_pencil(&reduced.pencil);
-    shown.look_at_window(problem.window(), answer);
+pub(super) fn of_enumeration(
+    problem: &Problem,
+    reduced: &Reduced,
+    answer: &Enumeration,
+) -> BTreeSet<Flag> {
+    let mut shown = ShownFlags::of_problem(problem, reduced);
+    shown.look_at_window_ends(problem.window(), answer);
     shown.look_at_answer(answer);
     shown.look_at_solutions(&answer.solutions, &reduced.pencil.slip());
     shown.flags
 }
+
+/// The flags that the problem and an answer without exact numbers show: of the answer only how
+/// many solutions it has.
+pub(super) fn of_certified(
+    problem: &Problem,
+    reduced: &Reduced,
+    answer: &CertifiedAnswer,
+) -> BTreeSet<Flag> {
+    let mut shown = ShownFlags::of_problem(problem, reduced);
+    let count = answer.cover.solutions.len();
+    let is_all = answer.completeness == Completeness::Proved;
+    shown.put(Flag::NoSolution, is_all && count == 0);
+    shown.put(Flag::ManySolutions, count >= MANY);
+    shown.flags
+}
+
+/// So many solutions are many.
+const MANY: usize = 10;
 
 /// The flags seen so far.
 #[derive(Default)]
@@ -95,6 +111,18 @@ struct ShownFlags {
 }
 
 impl ShownFlags {
+    /// What the problem shows, whatever its answer.
+    fn of_problem(problem: &Problem, reduced: &Reduced) -> ShownFlags {
+        let mut shown = ShownFlags::default();
+        shown.look_at_problem(problem);
+        shown.look_at_pencil(&reduced.pencil);
+
+        let window = problem.window();
+        let is_bounded = window.max().is_some() || !window.min().is_zero();
+        shown.put(Flag::Window, is_bounded);
+        shown
+    }
+
     /// Adds the flag if it holds.
     fn put(&mut self, flag: Flag, holds: bool) {
         if holds {
@@ -136,10 +164,7 @@ impl ShownFlags {
         self.put(Flag::Scaled, entries.any(|(_, _, v)| is_extreme(v)));
     }
 
-    fn look_at_window(&mut self, window: &Window, answer: &Enumeration) {
-        let is_bounded = window.max().is_some() || !window.min().is_zero();
-        self.put(Flag::Window, is_bounded);
-
+    fn look_at_window_ends(&mut self, window: &Window, answer: &Enumeration) {
         // Zero is the end of every window without a lower bound.
         let mut ends = Vec::new();
         if !window.min().is_zero() {
@@ -159,7 +184,7 @@ impl ShownFlags {
     fn look_at_answer(&mut self, answer: &Enumeration) {
         let count = answer.solutions.len() + answer.cones.len() + answer.ranges.len();
         self.put(Flag::NoSolution, count == 0);
-        self.put(Flag::ManySolutions, count >= 10);
+        self.put(Flag::ManySolutions, count >= MANY);
         self.put(Flag::WideKernel, !answer.wide.is_empty());
         self.put(Flag::Cone, !answer.cones.is_empty());
         self.put(Flag::SingularPencil, !answer.continua.is_empty());

@@ -77,8 +77,8 @@ pub fn random_draft(k: usize, seed: u64) -> Result<Draft, ModelError> {
     ))
 }
 
-/// A problem of the pack, named by its id.
-fn draft(
+/// A problem of the pack, named by its id; the plain oracle answers it.
+pub(super) fn draft(
     id: impl Into<String>,
     comment: impl Into<String>,
     flags: &[Flag],
@@ -90,11 +90,14 @@ fn draft(
         flags: flags.to_vec(),
         problem: problem.named(id.clone()),
         id,
+        completeness: None,
+        listed: None,
+        difficulty: None,
     }
 }
 
 /// A file of the pack.
-fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
+pub(super) fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
     Group {
         name: name.into(),
         comment: comment.into(),

@@ -1,6 +1,10 @@
 //! A report on a case: correct, incomplete, inaccurate or wrong, decided by exact membership in the
 //! complete answer.
 //!
+//! Beyond the plain oracle a claim has its place by support and value (`certified`). Where the
+//! answer is only the best known, a certified solution that is not in it is no error: it is counted
+//! as unlisted.
+//!
 //! The rule for floats: a reported solution counts if `certify` turns it into a claim (value within
 //! 1e-4 of 1 + |value|, x within 1e-3 with e'x_s = 1, support by several guesses), and the exact
 //! solution of that claim is in the answer. Scale, order and repetitions do not matter. The answer
@@ -12,17 +16,19 @@
 //! Input: a case and the text that a program printed. Output: a label and the first reason for it.
 //! Called by `run` for each case of the plan.
 
-use super::case::Case;
+use super::case::{Case, CaseAnswer};
+use super::certified::CertifiedAnswer;
 use super::nearest::Distance;
 use mceip_check::certificate::{Claim, ExactSolution};
+use mceip_check::{AcceptedClaim, Place};
 use mceip_engine::certify::Certifier;
 use mceip_engine::foreign::{
     BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport, Reported,
 };
-use mceip_engine::multistart::{exact_value, integer_x, support};
+use mceip_engine::multistart::{exact_value, integer_x, same, support};
 use mceip_engine::tolerance::VALUE_RADIUS;
-use mceip_exact::{Algebraic, Poly, Rational, from_f64, to_decimal};
-use mceip_oracle::{End, Solution, SupportRange};
+use mceip_exact::{Algebraic, Poly, Rational, from_f64, nearest_decimal, to_decimal};
+use mceip_oracle::{End, Enumeration, Solution, SupportRange};
 use num_traits::{One, Signed};
 
 worded! {
@@ -54,6 +60,10 @@ pub struct Judgement {
     pub label: Label,
     /// Why.
     pub detail: String,
+    /// Parts of the answer that were met before it was decided.
+    pub found: usize,
+    /// Certified solutions that a best known answer does not have.
+    pub unlisted: usize,
 }
 
 impl Judgement {
@@ -61,6 +71,8 @@ impl Judgement {
         Judgement {
             label,
             detail: detail.into(),
+            found: 0,
+            unlisted: 0,
         }
     }
 }
@@ -83,6 +95,10 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
 
 /// Judges the text of a report on a case. The time is looked at before each solution.
 pub(super) fn judge_until(case: &Case, text: &str, is_over: &dyn Fn() -> bool) -> Judgement {
+    if text.trim().is_empty() {
+        return Judgement::new(Label::Malformed, "it printed nothing on stdout");
+    }
+
     let report = match ForeignReport::read(text, &case.problem, &case.reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
@@ -106,15 +122,15 @@ pub(super) fn judge_until(case: &Case, text: &str, is_over: &dyn Fn() -> bool) -
     }
 
     let mut met = MetParts::nothing(case);
-    let first_inaccurate = match met.place_report(&report, is_over) {
-        Ok(first) => first,
-        Err(judgement) => return judgement,
+    let judgement = match met.place_report(&report, is_over) {
+        Ok(first_inaccurate) => met.judgement(first_inaccurate),
+        Err(judgement) => judgement,
     };
 
-    match (first_inaccurate, met.missing()) {
-        (Some(why), _) => Judgement::new(Label::Inaccurate, why),
-        (None, None) => Judgement::new(Label::Correct, ""),
-        (None, Some(what)) => Judgement::new(Label::Incomplete, what),
+    Judgement {
+        found: met.found(),
+        unlisted: met.unlisted.len(),
+        ..judgement
     }
 }
 
@@ -132,17 +148,44 @@ struct MetParts<'a> {
     solutions: Vec<bool>,
     cones: Vec<bool>,
     ranges: Vec<bool>,
+    /// Solutions that a best known answer does not have, each once.
+    unlisted: Vec<Claim>,
 }
 
 impl MetParts<'_> {
     /// Nothing of the answer is met.
     fn nothing(case: &Case) -> MetParts<'_> {
+        let (solutions, cones, ranges) = match &case.answer {
+            CaseAnswer::Enumerated(answer) => (
+                answer.solutions.len(),
+                answer.cones.len(),
+                answer.ranges.len(),
+            ),
+            CaseAnswer::Certified(answer) => (answer.cover.solutions.len(), 0, 0),
+        };
+
         MetParts {
             case,
-            solutions: vec![false; case.answer.solutions.len()],
-            cones: vec![false; case.answer.cones.len()],
-            ranges: vec![false; case.answer.ranges.len()],
+            solutions: vec![false; solutions],
+            cones: vec![false; cones],
+            ranges: vec![false; ranges],
+            unlisted: Vec::new(),
         }
+    }
+
+    /// The label of a report of which everything has its place.
+    fn judgement(&self, first_inaccurate: Option<String>) -> Judgement {
+        match (first_inaccurate, self.missing()) {
+            (Some(why), _) => Judgement::new(Label::Inaccurate, why),
+            (None, None) => Judgement::new(Label::Correct, ""),
+            (None, Some(what)) => Judgement::new(Label::Incomplete, what),
+        }
+    }
+
+    /// How many parts of the answer are met.
+    fn found(&self) -> usize {
+        let parts = self.solutions.iter().chain(&self.cones).chain(&self.ranges);
+        parts.filter(|is_met| **is_met).count()
     }
 
     /// Places everything reported in the answer; the first thing that has no place, nor one near
@@ -195,8 +238,8 @@ impl MetParts<'_> {
         };
 
         let value = candidate.value;
-        let claim = match certifier.certify(candidate) {
-            Ok(claim) => claim,
+        let (claim, verdict) = match certifier.certify_with_verdict(candidate) {
+            Ok(certified) => certified,
             Err(why) => {
                 let why = format!("value {value} is not certified: {why}");
                 return Err(match Distance::to_nearest(self.case, candidate) {
@@ -206,10 +249,17 @@ impl MetParts<'_> {
             }
         };
 
-        let is_placed = match &claim {
-            Claim::ExactSolution(c) => self.place_exact(&claim, c),
+        let case = self.case;
+        let is_placed = match (&case.answer, &claim) {
+            (CaseAnswer::Certified(answer), _) => self.place_accepted(claim, &verdict, answer),
+            (CaseAnswer::Enumerated(answer), Claim::ExactSolution(c)) => {
+                self.place_exact(&claim, c, answer)
+            }
             // A lifted one is never made here; like a box it is placed by value and support.
-            Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => self.place_box(&claim),
+            (
+                CaseAnswer::Enumerated(answer),
+                Claim::EnclosedSolution(_) | Claim::LiftedSolution(_),
+            ) => self.place_box(&claim, answer),
         };
         if !is_placed {
             return Err(NoPlace::False(format!(
@@ -219,9 +269,28 @@ impl MetParts<'_> {
         Ok(())
     }
 
+    /// Marks the solution of a certified answer that an accepted claim is about; where the answer
+    /// leaves its place open the claim is an unlisted one. False contradicts a proved answer.
+    fn place_accepted(
+        &mut self,
+        claim: Claim,
+        verdict: &AcceptedClaim,
+        answer: &CertifiedAnswer,
+    ) -> bool {
+        match answer.cover.place_of(verdict) {
+            Some(Place::Solution(k)) => self.solutions[k] = true,
+            Some(Place::Family(_) | Place::Open(_)) => {
+                if !self.unlisted.iter().any(|known| same(known, &claim)) {
+                    self.unlisted.push(claim);
+                }
+            }
+            None => return false,
+        }
+        true
+    }
+
     /// Marks what an exact claim meets; false if the answer does not hold it.
-    fn place_exact(&mut self, claim: &Claim, c: &ExactSolution) -> bool {
-        let answer = &self.case.answer;
+    fn place_exact(&mut self, claim: &Claim, c: &ExactSolution, answer: &Enumeration) -> bool {
         let Some(value) = exact_value(claim) else {
             return false;
         };
@@ -257,7 +326,7 @@ impl MetParts<'_> {
 
     /// A box holds one solution of its support: the listed one with this support and a value in the
     /// box.
-    fn place_box(&mut self, claim: &Claim) -> bool {
+    fn place_box(&mut self, claim: &Claim, answer: &Enumeration) -> bool {
         let Claim::EnclosedSolution(c) = claim else {
             return false;
         };
@@ -270,7 +339,7 @@ impl MetParts<'_> {
         let hi = &center.0 + &radius.0;
 
         let mut is_placed = false;
-        for (k, listed) in self.case.answer.solutions.iter().enumerate() {
+        for (k, listed) in answer.solutions.iter().enumerate() {
             if listed.slip == support(claim) && is_between(&listed.value, &lo, &hi) {
                 self.solutions[k] = true;
                 is_placed = true;
@@ -284,7 +353,10 @@ impl MetParts<'_> {
         let mut slip = reported.slip.clone();
         slip.sort_unstable();
 
-        let ranges = &self.case.answer.ranges;
+        let ranges: &[SupportRange] = match &self.case.answer {
+            CaseAnswer::Enumerated(answer) => &answer.ranges,
+            CaseAnswer::Certified(_) => &[], // such an answer has single solutions only
+        };
         match ranges.iter().position(|r| r.support == slip) {
             Some(k) if same_intervals(&ranges[k], reported) => {
                 self.ranges[k] = true;
@@ -299,12 +371,27 @@ impl MetParts<'_> {
 
     /// The first part of the answer that was not met, and how many. `None` if all were.
     fn missing(&self) -> Option<String> {
-        let answer = &self.case.answer;
-        let parts = || self.solutions.iter().chain(&self.cones).chain(&self.ranges);
-        let total = parts().count();
-        let count = parts().filter(|is_met| !**is_met).count();
+        let total = self.case.parts();
+        let count = total - self.found();
+        if count == 0 {
+            return None;
+        }
 
-        let first = if let Some(k) = first_unmet(&self.solutions) {
+        let first = match &self.case.answer {
+            CaseAnswer::Enumerated(answer) => self.first_missing(answer)?,
+            CaseAnswer::Certified(answer) => {
+                let accepted = &answer.cover.solutions[first_unmet(&self.solutions)?];
+                let value = nearest_decimal(&accepted.value.mid(), 9);
+                let support = &accepted.support;
+                format!("the solution {value} with slip {support:?}")
+            }
+        };
+        Some(format!("{count} of {total} missing, first {first}"))
+    }
+
+    /// The first part of an enumerated answer that was not met, in words.
+    fn first_missing(&self, answer: &Enumeration) -> Option<String> {
+        Some(if let Some(k) = first_unmet(&self.solutions) {
             let s = &answer.solutions[k];
             format!("the solution {} with slip {:?}", decimal(&s.value), s.slip)
         } else if let Some(k) = first_unmet(&self.cones) {
@@ -313,9 +400,7 @@ impl MetParts<'_> {
         } else {
             let range = &answer.ranges[first_unmet(&self.ranges)?];
             format!("the continuum of slip {:?}", range.support)
-        };
-
-        Some(format!("{count} of {total} missing, first {first}"))
+        })
     }
 }
 

@@ -2,15 +2,16 @@
 //! manner of Wycheproof.
 //!
 //! ```text
-//! groups -> drafts -> cases (plain oracle: complete answer, flags, wrong answers) -> pack files
-//!                       |
+//! groups, tier2 -> drafts -> cases (answer by the plain oracle, or certified; flags; wrong
+//!                       |            answers) -> pack files
 //!                       +-> foreign program (stdin: problem, stdout: mceip-solutions/1)
 //!                             |
 //!                             +-> judge -> labels per flag
 //! ```
 //!
 //! The pack in `spec/conformance-pack/` is what [`pack_files`] writes, byte for byte;
-//! `mceip conform` needs no files. The pages: `spec/conform.md`.
+//! `mceip conform` needs no files. Tier 2 is in `spec/conformance-pack-2/`. The pages:
+//! `spec/conform.md`.
 
 /// An enumeration whose variants have a word for files and a note for people.
 macro_rules! worded {
@@ -29,6 +30,11 @@ macro_rules! worded {
                 match self { $($name::$variant => $word,)+ }
             }
 
+            /// The one with this word.
+            pub fn of_word(word: &str) -> Option<$name> {
+                $name::ALL.iter().copied().find(|one| one.word() == word)
+            }
+
             /// What it means, in a sentence for people.
             pub fn note(self) -> &'static str {
                 match self { $($name::$variant => $note,)+ }
@@ -38,6 +44,8 @@ macro_rules! worded {
 }
 
 mod case;
+mod certified;
+mod compare;
 mod flag;
 mod groups;
 mod judge;
@@ -48,14 +56,20 @@ mod process;
 mod run;
 mod spectrum;
 mod summary;
+mod tier2;
 mod wrong;
 
-pub use case::{Case, Draft, Group};
+pub use case::{Case, CaseAnswer, Difficulty, Draft, Group};
+pub use certified::{CertifiedAnswer, Completeness};
+pub use compare::{ConformComparison, ConformRun, ProfileSteps, measured_difficulty};
 pub use flag::Flag;
 pub use groups::{groups, random_draft};
 pub use judge::{Judgement, Label, judge_report};
-pub use pack::{INDEX_FORMAT, PACK_FORMAT, pack_files, read_pack};
+pub use pack::{
+    CasePack, INDEX_FORMAT, PACK_FORMAT, PACK_VERSION, PackName, pack_files, read_pack,
+};
 pub use process::{ProcessEnding, ProcessLimits, run_once};
 pub use run::{CaseOutcome, ConformPlan, run};
-pub use summary::{Summary, summarise};
+pub use summary::{ConformScore, RUN_FORMAT, RunHead, Summary, summarise};
+pub use tier2::tier2;
 pub use wrong::{Bug, WrongAnswer};

@@ -8,10 +8,10 @@
 //! the answer with the same positive components is within [`NEAR_RADII`] times what `certify`
 //! allows; any other one is wrong. Called by `judge`.
 
-use super::case::Case;
+use super::case::{Case, ListedPoint};
 use mceip_engine::candidate::{Candidate, distance};
 use mceip_engine::tolerance::{NEAR_RADII, VALUE_RADIUS, X_RADIUS};
-use mceip_oracle::Solution;
+use mceip_exact::{nearest_decimal, parse};
 
 /// The distances of a reported solution from one of the answer.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,11 +31,11 @@ impl Distance {
         let slip = case.reduced.pencil.slip();
         let mut nearest: Option<Distance> = None;
 
-        for solution in &case.answer.solutions {
-            if !reported.has_support(&slip, &solution.slip) {
+        for listed in case.points() {
+            if !reported.has_support(&slip, &listed.support) {
                 continue;
             }
-            let Some(distance) = Distance::between(solution, reported, &slip) else {
+            let Some(distance) = Distance::between(&listed, reported) else {
                 continue;
             };
 
@@ -53,19 +53,18 @@ impl Distance {
     }
 
     /// `None` for an x that has no scale, or numbers beyond the doubles.
-    fn between(solution: &Solution, reported: &Candidate, slip: &[usize]) -> Option<Distance> {
-        let value = solution.decimal(17);
-        let exact_value: f64 = value.parse().ok()?;
+    fn between(listed: &ListedPoint, reported: &Candidate) -> Option<Distance> {
+        let exact_value: f64 = listed.value.parse().ok()?;
 
         let mut x = Vec::new();
-        for decimal in solution.x_decimals(slip, 17) {
+        for decimal in &listed.x {
             x.push(decimal.parse().ok()?);
         }
         let of_x = distance(&x, &reported.x);
 
         let of_value = (reported.value - exact_value).abs() / (1.0 + exact_value.abs());
         let distance = Distance {
-            value: solution.decimal(9),
+            value: nearest_decimal(&parse(&listed.value).ok()?, 9),
             of_value,
             of_x,
         };

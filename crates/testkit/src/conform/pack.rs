@@ -5,7 +5,8 @@
 //! compares digests and answers. Called by `mceip conform --write`, `mceip conform --pack`, and by
 //! the test that compares `spec/conformance-pack/` with what is written.
 
-use super::case::{Case, Draft, Group};
+use super::case::{Case, Difficulty, Draft, Group};
+use super::certified::Completeness;
 use super::flag::Flag;
 use super::wrong::Bug;
 use crate::error::TestkitError;
@@ -21,16 +22,47 @@ use std::path::Path;
 pub const PACK_FORMAT: &str = "mceip-pack/1";
 /// The format of the index.
 pub const INDEX_FORMAT: &str = "mceip-pack-index/1";
+/// The version of the cases. Major: a case is changed or removed, or its answer corrected; minor:
+/// cases or fields are added; patch: words only.
+pub const PACK_VERSION: &str = "1.1.0";
+
+/// Cases that belong together by size: a folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PackName {
+    /// 1: small, exact; 2: n = 10 to 200.
+    pub tier: u8,
+    /// [`PACK_VERSION`] of the program that wrote it; empty for a pack without a version.
+    pub version: String,
+}
+
+impl PackName {
+    /// The cases of this program.
+    pub fn of_tier(tier: u8) -> PackName {
+        PackName {
+            tier,
+            version: PACK_VERSION.into(),
+        }
+    }
+}
+
+/// A pack: what it is, and its cases.
+#[derive(Debug, Clone)]
+pub struct CasePack {
+    /// Tier and version.
+    pub name: PackName,
+    /// Its cases.
+    pub groups: Vec<Group>,
+}
 
 /// The files of the pack, name and content: groups in order, then `index.json`.
 ///
 /// # Errors
-/// [`TestkitError`] for a problem beyond the plain oracle.
-pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, TestkitError> {
+/// [`TestkitError`] for a problem whose answer is not found.
+pub fn pack_files(pack: &CasePack) -> Result<Vec<(String, String)>, TestkitError> {
     let mut files = Vec::new();
     let mut counts = Counts::default();
 
-    for group in groups {
+    for group in &pack.groups {
         let cases: Vec<Case> = group
             .drafts
             .par_iter()
@@ -51,7 +83,7 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, TestkitErro
         files.push((file, text));
     }
 
-    files.push(("index.json".into(), counts.index_text()));
+    files.push(("index.json".into(), counts.index_text(&pack.name)));
     Ok(files)
 }
 
@@ -80,7 +112,7 @@ impl Counts {
     }
 
     /// The content of `index.json`.
-    fn index_text(self) -> String {
+    fn index_text(self, name: &PackName) -> String {
         let mut flags = Map::new();
         for (flag, count) in &self.flags {
             let entry = json!({ "cases": count, "note": flag.note() });
@@ -99,6 +131,8 @@ impl Counts {
 
         let index = json!({
             "format": INDEX_FORMAT,
+            "version": name.version,
+            "tier": name.tier,
             "cases": self.cases,
             "groups": self.groups,
             "flags": flags,
@@ -159,6 +193,10 @@ impl CaseLine {
 struct RawIndex {
     #[serde(rename = "format")]
     _format: String,
+    #[serde(default)]
+    version: String,
+    #[serde(default = "first_tier")]
+    tier: u8,
     groups: Vec<RawEntry>,
     #[serde(rename = "cases")]
     _cases: usize,
@@ -166,6 +204,11 @@ struct RawIndex {
     _flags: Value,
     #[serde(rename = "bugs")]
     _bugs: Value,
+}
+
+/// The tier of a pack that does not say it.
+fn first_tier() -> u8 {
+    1
 }
 
 /// A group in the index.
@@ -197,22 +240,32 @@ struct RawCase {
     answer: Value,
     #[serde(rename = "wrong")]
     _wrong: Value,
+    completeness: Option<String>,
+    difficulty: Option<String>,
+    /// Of the certificate that was checked when the case was written; another search may make
+    /// another one, so it is not compared.
+    #[serde(rename = "certificate_sha256")]
+    _certificate: Option<String>,
 }
 
 /// Reads a pack from a folder by its index. Nothing in it is taken for granted: digests are
 /// compared, and each case is answered again by the plain oracle ([`Case::answer`]) and the answer
-/// compared.
+/// compared. Where the oracle does not find it, the list is carried along and held against what is
+/// found when [`Case::answer`] is called: that may take seconds for a case.
 ///
 /// # Errors
 /// [`TestkitError`]: unreadable or of another version, a digest, a problem, or an answer that
 /// differs.
-pub fn read_pack(folder: &Path) -> Result<Vec<Group>, TestkitError> {
+pub fn read_pack(folder: &Path) -> Result<CasePack, TestkitError> {
     let index = read_index(folder).map_err(|e| TestkitError::problem("index.json", e))?;
-    index
-        .groups
-        .iter()
-        .map(|entry| read_group(folder, entry))
-        .collect()
+    let groups = index.groups.iter().map(|entry| read_group(folder, entry));
+    Ok(CasePack {
+        groups: groups.collect::<Result<_, _>>()?,
+        name: PackName {
+            tier: index.tier,
+            version: index.version,
+        },
+    })
 }
 
 /// Reads `index.json`.
@@ -267,16 +320,28 @@ fn read_group_text(folder: &Path, file: &str) -> Result<String, ModelError> {
     read_text("a group", &folder.join(file))
 }
 
+/// The variant with this word.
+///
+/// # Errors
+/// [`TestkitError::Word`]; `what` says what was expected.
+pub(super) fn of_word<T>(
+    case: &str,
+    what: &'static str,
+    word: &str,
+    find: impl Fn(&str) -> Option<T>,
+) -> Result<T, TestkitError> {
+    find(word).ok_or_else(|| TestkitError::Word {
+        case: case.to_owned(),
+        what,
+        got: word.chars().take(60).collect(),
+    })
+}
+
 /// Reads a case and compares its answer with that of the plain oracle.
 fn read_case(raw: &RawCase) -> Result<Draft, TestkitError> {
     let mut flags = Vec::new();
     for word in &raw.flags {
-        let Some(flag) = Flag::of_word(word) else {
-            return Err(TestkitError::Flag {
-                case: raw.id.clone(),
-                got: word.chars().take(60).collect(),
-            });
-        };
+        let flag = of_word(&raw.id, "a flag of spec/conform.md", word, Flag::of_word)?;
         if flag.is_given() {
             flags.push(flag);
         }
@@ -286,12 +351,28 @@ fn read_case(raw: &RawCase) -> Result<Draft, TestkitError> {
     let problem = read_problem(&raw.problem.to_string(), Path::new("/nonexistent"));
     let problem = problem.map_err(|e| TestkitError::problem(&raw.id, e))?;
 
+    let completeness = raw.completeness.as_deref().map(|word| {
+        let what = "proved or best_known for completeness";
+        of_word(&raw.id, what, word, Completeness::of_word)
+    });
+    let completeness = completeness.transpose()?;
+    let difficulty = raw.difficulty.as_deref().map(|word| {
+        let what = "easy, medium or hard for difficulty";
+        of_word(&raw.id, what, word, Difficulty::of_word)
+    });
+
     let draft = Draft {
         id: raw.id.clone(),
         comment: raw.comment.clone(),
         flags,
         problem,
+        completeness,
+        listed: completeness.map(|_| raw.answer.clone()),
+        difficulty: difficulty.transpose()?,
     };
+    if completeness.is_some() {
+        return Ok(draft);
+    }
 
     let case = Case::answer(&draft, false)?;
     if case.answer_json() != raw.answer {

@@ -4,15 +4,19 @@
 //! Input: a plan (cases, limits, threads) and a command. Output: the outcome of each case, in the
 //! order of the plan. Called by `mceip conform`.
 
-use super::case::{Case, Draft, Group};
+use super::case::{Case, Difficulty, Draft, Group};
+use super::certified::Completeness;
 use super::flag::Flag;
 use super::groups::random_draft;
 use super::judge::{Judgement, Label, judge_until};
 use super::lines::LineProgram;
 use super::process::{ProcessEnding, ProcessLimits, run_once};
 use crate::error::TestkitError;
+use crate::generators::random_order;
 use mceip_engine::run::{Progress, Watch, in_threads};
 use mceip_model::file::write_problem;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,9 +28,11 @@ use std::time::Instant;
 pub struct ConformPlan {
     /// Cases of the pack.
     pub groups: Vec<Group>,
+    /// Send the cases in an order drawn from the seed, under names that say nothing?
+    pub anonymous: bool,
     /// Random cases besides.
     pub random: usize,
-    /// Their seed.
+    /// Their seed, and that of the order of anonymous cases.
     pub seed: u64,
     /// Send reduced pencils in place of mechanical systems.
     pub as_pencil: bool,
@@ -41,14 +47,24 @@ pub struct ConformPlan {
 }
 
 /// What came of one case.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CaseOutcome {
     /// The case.
     pub id: String,
+    /// Digest of the problem as it was sent.
+    pub problem_sha256: String,
     /// What it is about.
     pub flags: BTreeSet<Flag>,
+    /// How hard it has been found to be.
+    pub difficulty: Option<Difficulty>,
+    /// What is known of its answer where the plain oracle has not made it.
+    pub completeness: Option<Completeness>,
+    /// Parts of its answer.
+    pub expected: usize,
     /// What the program did.
     pub judgement: Judgement,
+    /// Seconds that it took, with its start where it was started for the case.
+    pub seconds: f64,
 }
 
 /// Runs every case of the plan through the command, on the plan's threads, and judges what it
@@ -74,16 +90,34 @@ pub fn run(
         idle: Mutex::new(Vec::new()),
     };
 
+    // The cases in the order in which they are sent.
+    let sent = if plan.anonymous {
+        let mut rng = ChaCha8Rng::seed_from_u64(plan.seed);
+        random_order(&mut rng, total)
+    } else {
+        (0..total).collect()
+    };
+
     // One case per task: they take very different times.
     let outcomes = in_threads(plan.threads, || {
-        (0..total)
-            .into_par_iter()
+        sent.par_iter()
             .with_max_len(1)
-            .map(|k| run.outcome(k))
-            .collect::<Result<Vec<_>, _>>()
+            .enumerate()
+            .map(|(place, k)| Ok((*k, run.outcome(*k, place)?)))
+            .collect::<Result<Vec<_>, TestkitError>>()
     })?;
 
-    Ok(outcomes.into_iter().flatten().collect())
+    let mut in_order: Vec<Option<CaseOutcome>> = vec![None; total];
+    for (k, outcome) in outcomes {
+        in_order[k] = outcome;
+    }
+    Ok(in_order.into_iter().flatten().collect())
+}
+
+/// A judgement, and the seconds that the program took.
+struct TimedJudgement {
+    judgement: Judgement,
+    seconds: f64,
 }
 
 /// A run at work, shared by its threads.
@@ -100,16 +134,16 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// What comes of the `k`-th case. `None` for a case that the plan leaves out or that was
-    /// interrupted.
-    fn outcome(&self, k: usize) -> Result<Option<CaseOutcome>, TestkitError> {
+    /// What comes of the `k`-th case, sent as the one at this place. `None` for a case that the
+    /// plan leaves out or that was interrupted.
+    fn outcome(&self, k: usize, place: usize) -> Result<Option<CaseOutcome>, TestkitError> {
         if self.watch.is_cancelled() {
             return Ok(None);
         }
 
         let case = self.case(k)?;
-        let judgement = if case.has_any(&self.plan.only) {
-            self.judgement(&case)?
+        let timed = if case.has_any(&self.plan.only) {
+            self.judgement(&case, place)?
         } else {
             None
         };
@@ -118,10 +152,15 @@ impl Run<'_> {
         let progress = Progress::of("cases", finished, self.total);
         self.watch.report(&progress);
 
-        Ok(judgement.map(|judgement| CaseOutcome {
+        Ok(timed.map(|timed| CaseOutcome {
+            problem_sha256: case.problem.sha256(),
+            difficulty: case.difficulty,
+            completeness: case.completeness(),
+            expected: case.parts(),
             id: case.id,
             flags: case.flags,
-            judgement,
+            judgement: timed.judgement,
+            seconds: timed.seconds,
         }))
     }
 
@@ -137,14 +176,19 @@ impl Run<'_> {
     }
 
     /// Sends the case to the program and judges how it ends. `None` if it was interrupted.
-    fn judgement(&self, case: &Case) -> Result<Option<Judgement>, TestkitError> {
-        let input = write_problem(&case.problem);
+    fn judgement(&self, case: &Case, place: usize) -> Result<Option<TimedJudgement>, TestkitError> {
+        let input = if self.plan.anonymous {
+            write_problem(&case.problem_named(format!("problem {}", place + 1)))
+        } else {
+            write_problem(&case.problem)
+        };
         if self.plan.by_lines {
             return self.judgement_by_lines(case, &input);
         }
 
-        let ending = run_once(self.command, &input, &self.plan.limits, self.watch)?;
-        Ok(self.judged(case, ending))
+        self.timed(case, || {
+            run_once(self.command, &input, &self.plan.limits, self.watch)
+        })
     }
 
     /// The same with a program that answers line by line: one that waits, or one started for the
@@ -154,20 +198,34 @@ impl Run<'_> {
         &self,
         case: &Case,
         input: &str,
-    ) -> Result<Option<Judgement>, TestkitError> {
+    ) -> Result<Option<TimedJudgement>, TestkitError> {
         let waiting = lock(&self.idle).pop();
         let mut program =
             waiting.unwrap_or_else(|| LineProgram::new(self.command, self.plan.limits));
 
-        let mut judgement = self.judged(case, program.ask(input, self.watch)?);
-        let falls_short = |judgement: &Judgement| judgement.label != Label::Correct;
-        if program.has_answered_before() && judgement.as_ref().is_some_and(falls_short) {
+        let mut timed = self.timed(case, || program.ask(input, self.watch))?;
+        let falls_short = |timed: &TimedJudgement| timed.judgement.label != Label::Correct;
+        if program.has_answered_before() && timed.as_ref().is_some_and(falls_short) {
             program.renew();
-            judgement = self.judged(case, program.ask(input, self.watch)?);
+            timed = self.timed(case, || program.ask(input, self.watch))?;
         }
         lock(&self.idle).push(program);
 
-        Ok(judgement)
+        Ok(timed)
+    }
+
+    /// Asks, and judges how that ended; the time is that of the program alone.
+    fn timed(
+        &self,
+        case: &Case,
+        ask: impl FnOnce() -> Result<ProcessEnding, TestkitError>,
+    ) -> Result<Option<TimedJudgement>, TestkitError> {
+        let begun = Instant::now();
+        let ending = ask()?;
+        let seconds = begun.elapsed().as_secs_f64();
+
+        let judgement = self.judged(case, ending);
+        Ok(judgement.map(|judgement| TimedJudgement { judgement, seconds }))
     }
 
     /// The judgement on how the program ended. `None` if it was interrupted.

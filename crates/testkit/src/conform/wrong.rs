@@ -4,13 +4,13 @@
 //! leaves a part out. Input: a case. Output: at most one report of each bug. They are in the pack,
 //! so that a harness can be tested, and `judge` has to give each the label of [`Bug::expected`].
 
-use super::case::Case;
+use super::case::{Case, CaseAnswer, ListedPoint};
 use super::judge::Label;
 use super::spectrum::{EigenvectorKind, eigenpairs};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_exact::{Rational, parse, rational, whole};
 use mceip_model::Window;
-use mceip_oracle::{Solution, enumerate};
+use mceip_oracle::{Enumeration, Solution, enumerate};
 use num_traits::{Signed, Zero};
 use serde_json::{Value, json};
 
@@ -61,29 +61,26 @@ impl Case {
     ///
     /// True by construction that they are wrong, at most one of each bug.
     pub fn wrong_answers(&self) -> Vec<WrongAnswer> {
-        let slip = self.reduced.pencil.slip();
         let mut out = Vec::new();
-
-        let with_slip = self.answer.solutions.iter().find(|s| !s.is_free_only());
-        if let Some(solution) = with_slip {
-            let flipped = entry_negated(solution, &slip);
+        let points = self.points();
+        if let Some(point) = points.iter().find(|p| !p.support.is_empty()) {
+            let flipped = entry_negated(point);
             out.push(WrongAnswer::new(Bug::SignFlipped, vec![flipped]));
-            if let Some(shifted) = shifted(self, solution, &slip) {
+            if let Some(shifted) = shifted(self, point) {
                 out.push(WrongAnswer::new(Bug::ShiftedValue, vec![shifted]));
             }
         }
 
-        for spurious in spurious(self) {
-            let mut entry = entry(&spurious.pair, &slip);
-            if spurious.bug == Bug::RoundedToZero {
-                entry["value"] = json!("0");
+        match &self.answer {
+            CaseAnswer::Enumerated(answer) => {
+                out.extend(self.wrong_for_the_enumerated(answer, &points));
             }
-            out.push(WrongAnswer::new(spurious.bug, vec![entry]));
-        }
-
-        if let Some(solution) = outside(self) {
-            let entry = entry(&solution, &slip);
-            out.push(WrongAnswer::new(Bug::OutsideWindow, vec![entry]));
+            CaseAnswer::Certified(_) => {
+                let mut listed: Vec<Value> = points.iter().map(ListedPoint::entry).collect();
+                if listed.pop().is_some() {
+                    out.push(WrongAnswer::new(Bug::Dropped, listed));
+                }
+            }
         }
 
         if !self.has_solutions() {
@@ -91,9 +88,33 @@ impl Case {
             let entry = json!({ "value": "1", "x": zeros });
             out.push(WrongAnswer::new(Bug::ZeroVector, vec![entry]));
         }
+        out
+    }
 
-        out.extend(incomplete(self, &slip));
-        out.extend(endless(self));
+    /// What needs the exact answer: eigenpairs of supports, solutions outside the window, cones and
+    /// continua.
+    fn wrong_for_the_enumerated(
+        &self,
+        answer: &Enumeration,
+        points: &[ListedPoint],
+    ) -> Vec<WrongAnswer> {
+        let slip = self.reduced.pencil.slip();
+        let mut out = Vec::new();
+        for spurious in spurious(self) {
+            let mut entry = ListedPoint::of_solution(&spurious.pair, &slip).entry();
+            if spurious.bug == Bug::RoundedToZero {
+                entry["value"] = json!("0");
+            }
+            out.push(WrongAnswer::new(spurious.bug, vec![entry]));
+        }
+
+        if let Some(solution) = outside(self) {
+            let entry = ListedPoint::of_solution(&solution, &slip).entry();
+            out.push(WrongAnswer::new(Bug::OutsideWindow, vec![entry]));
+        }
+
+        out.extend(incomplete(answer, points));
+        out.extend(endless(answer));
         out
     }
 }
@@ -107,19 +128,10 @@ impl WrongAnswer {
     }
 }
 
-/// `value` and `x` as a foreign program gives them.
-fn entry(s: &Solution, slip: &[usize]) -> Value {
-    json!({ "value": s.decimal(17), "x": s.x_decimals(slip, 17) })
-}
-
-/// [`entry`] with x negated.
-fn entry_negated(s: &Solution, slip: &[usize]) -> Value {
-    let x: Vec<String> = s
-        .x_decimals(slip, 17)
-        .iter()
-        .map(|decimal| negated(decimal))
-        .collect();
-    json!({ "value": s.decimal(17), "x": x })
+/// The entry of a solution with x negated.
+fn entry_negated(point: &ListedPoint) -> Value {
+    let x: Vec<String> = point.x.iter().map(|decimal| negated(decimal)).collect();
+    json!({ "value": point.value, "x": x })
 }
 
 /// The decimal with the other sign; zero has none.
@@ -132,23 +144,24 @@ fn negated(decimal: &str) -> String {
 }
 
 /// The solution with 1.01 value + 0.01, where no support is singular (else that may be a solution).
-fn shifted(case: &Case, s: &Solution, slip: &[usize]) -> Option<Value> {
-    if !case.answer.continua.is_empty() {
+fn shifted(case: &Case, point: &ListedPoint) -> Option<Value> {
+    if let CaseAnswer::Enumerated(answer) = &case.answer
+        && !answer.continua.is_empty()
+    {
         return None;
     }
 
-    let value = parse(&s.decimal(17)).ok()?;
+    let value = parse(&point.value).ok()?;
     let shifted = value * rational(101, 100) + rational(1, 100);
-    let mut out = entry(s, slip);
+    let mut out = point.entry();
     out["value"] = json!(shifted.to_string());
     Some(out)
 }
 
 /// The complete answer without one of its parts: one of two solutions that share a value, or else
 /// the last part.
-fn incomplete(case: &Case, slip: &[usize]) -> Option<WrongAnswer> {
-    let answer = &case.answer;
-    let mut listed: Vec<Value> = answer.solutions.iter().map(|s| entry(s, slip)).collect();
+fn incomplete(answer: &Enumeration, points: &[ListedPoint]) -> Option<WrongAnswer> {
+    let mut listed: Vec<Value> = points.iter().map(ListedPoint::entry).collect();
 
     let is_plain_list = answer.cones.is_empty() && answer.ranges.is_empty();
     if is_plain_list {
@@ -274,8 +287,8 @@ fn is_far(v: &Rational, from: &Rational) -> bool {
 }
 
 /// A continuum reported for all values from 0, where it is not.
-fn endless(case: &Case) -> Option<WrongAnswer> {
-    let range = case.answer.ranges.iter().find(|r| {
+fn endless(answer: &Enumeration) -> Option<WrongAnswer> {
+    let range = answer.ranges.iter().find(|r| {
         let has_an_end = r.pieces.iter().any(|p| p.to.is_some());
         r.pieces.len() > 1 || has_an_end
     })?;

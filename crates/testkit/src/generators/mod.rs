@@ -152,7 +152,7 @@ pub fn permuted(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
 }
 
 /// The numbers 0 to n - 1 in a random order (Fisher and Yates).
-fn random_order(rng: &mut ChaCha8Rng, n: usize) -> Vec<usize> {
+pub(crate) fn random_order(rng: &mut ChaCha8Rng, n: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..n).collect();
     for i in (1..n).rev() {
         order.swap(i, rng.random_range(0..=i));
