@@ -6,7 +6,7 @@
     >>> case.problem.solve()                             # doctest: +SKIP
 
 `mceip conform --write FOLDER` writes such a folder. Here digests are compared and nothing else;
-`mceip conform --pack FOLDER` finds every answer anew.
+`mceip conform --pack FOLDER` finds or certifies every answer anew.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class WrongAnswer:
 
 @dataclass(frozen=True)
 class Case:
-    """A problem with its complete exact answer."""
+    """A problem with its answer."""
 
     id: str
     comment: str
@@ -52,6 +52,13 @@ class Case:
     #: Every solution, `mceip-solutions/1`: `solutions`, `cones`, `continua`.
     answer: dict[str, Any]
     wrong: tuple[WrongAnswer, ...]
+    #: What is known of the answer: "exact" (complete, by enumeration), "proved" (complete, by a
+    #: certificate) or "best_known" (each solution is certified, there may be others).
+    completeness: str = "exact"
+    #: "easy", "medium" or "hard", as measured; `None` where it has not been.
+    difficulty: str | None = None
+    #: SHA-256 of the certificate of a proved answer, as it was when the case was written.
+    certificate_sha256: str | None = None
 
     @property
     def problem(self) -> Problem:
@@ -66,6 +73,10 @@ class Pack:
     cases: tuple[Case, ...]
     #: What each flag is about.
     flags: dict[str, str]
+    #: Version of the cases; empty for a pack that has none.
+    version: str = ""
+    #: 1 for the small cases, 2 for those of order 10 to 200.
+    tier: int = 1
 
     def case(self, id: str) -> Case:
         """The case with this id; `KeyError` if there is none."""
@@ -112,7 +123,8 @@ def _read(place: Path) -> Pack:
         cases.extend(_case_of(raw) for raw in group["cases"])
 
     notes = {word: str(flag["note"]) for word, flag in index["flags"].items()}
-    return Pack(cases=tuple(cases), flags=notes)
+    version, tier = str(index.get("version", "")), int(index.get("tier", 1))
+    return Pack(cases=tuple(cases), flags=notes, version=version, tier=tier)
 
 
 def _json_of(name: str, content: bytes, expected: str) -> dict[str, Any]:
@@ -144,4 +156,7 @@ def _case_of(raw: dict[str, Any]) -> Case:
         problem_json=raw["problem"],
         answer=raw["answer"],
         wrong=wrong,
+        completeness=raw.get("completeness", "exact"),
+        difficulty=raw.get("difficulty"),
+        certificate_sha256=raw.get("certificate_sha256"),
     )

@@ -27,6 +27,28 @@ def test_the_pack_has_cases_with_problems_answers_and_wrong_answers(pack):
     assert {answer.label for case in pack.cases for answer in case.wrong} == {"incomplete", "wrong"}
 
 
+def test_tier_2_says_what_is_known_of_each_answer_and_how_hard_it_is():
+    large = read_pack(FOLDER.with_name("conformance-pack-2"))
+
+    assert (large.tier, large.version) == (2, read_pack(FOLDER).version)
+    assert {case.completeness for case in large.cases} == {"exact", "proved", "best_known"}
+    assert {case.difficulty for case in large.cases} == {"easy", "medium", "hard"}
+    for case in large.cases:
+        assert (case.certificate_sha256 is not None) == (case.completeness == "proved"), case.id
+
+
+def test_a_pack_without_version_tier_and_difficulty_is_read(tmp_path):
+    def without(text):
+        index = json.loads(text)
+        del index["version"], index["tier"]
+        return json.dumps(index)
+
+    old = read_pack(damaged(tmp_path, "index.json", without))
+
+    assert (old.version, old.tier) == ("", 1)
+    assert {(case.completeness, case.difficulty) for case in old.cases} == {("exact", None)}
+
+
 def test_complete_sets_have_the_values_of_the_answers(pack):
     folds = [case for case in pack.with_flag("fold") if not case.answer["continua"]]
     assert len(folds) > 3
