@@ -23,6 +23,7 @@ mod common;
 mod complete_cli;
 mod conform;
 mod conform_adapter;
+mod conform_tier2;
 mod convert;
 mod examples;
 mod fold;

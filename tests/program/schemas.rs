@@ -241,7 +241,9 @@ fn the_pack_is_valid() {
     let index = schema("mceip-pack-index-1");
     let mut cases = 0;
 
-    for path in json_files("spec/conformance-pack") {
+    let mut files = json_files("spec/conformance-pack");
+    files.extend(json_files("spec/conformance-pack-2"));
+    for path in files {
         let file = read(&path);
         if file["format"] == "mceip-pack-index/1" {
             valid(&index, &file, "index");
@@ -263,6 +265,22 @@ fn the_pack_is_valid() {
     }
 
     assert!(cases > 200, "{cases}");
+}
+
+/// Runs that are committed, and one that is made.
+#[test]
+fn runs_of_conform_are_valid() {
+    let runs = schema("mceip-conform-1");
+    for rival in ["semismooth-newton", "siconos"] {
+        let path = root(&format!("spec/rivals/tier2-{rival}.json"));
+        valid(&runs, &read(&path), rival);
+    }
+
+    let made = run("conform --only window_end --json -- true").stdout;
+    let mut made: Value = serde_json::from_str(&made).unwrap();
+    valid(&runs, &made, "a run");
+    made["results"][0]["label"] = json!("perfect");
+    assert!(!runs.is_valid(&made));
 }
 
 /// Is this a complaint about the shape of the file, which the schema must share?
