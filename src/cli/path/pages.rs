@@ -25,7 +25,7 @@ use crate::say::stretches::stretch_cells;
 use crate::{LoadPath, OwnCritical, PathAnalysis};
 use mceip_engine::run::Watch;
 use mceip_exact::{Interval, enclosing_decimals, to_f64, upper_decimal};
-use mceip_model::{Coordinates, ModelError, System};
+use mceip_model::{Coordinates, ModelError, Particle, System};
 use mceip_path::LoadingPath;
 use num_traits::Zero;
 
@@ -470,9 +470,20 @@ struct DrawnState<'a> {
 }
 
 impl DrawnState<'_> {
+    /// The particles with the names that the table of events has for them, numbers from 1.
+    fn named_particles(&self) -> Vec<Particle> {
+        let mut particles = self.system.particles().to_vec();
+        for (node, particle) in particles.iter_mut().enumerate() {
+            let number = (node + 1).to_string();
+            particle.name.get_or_insert(number);
+        }
+
+        particles
+    }
+
     /// The picture of a mode; `None` if its displacement is not known.
     fn mode(&self, mode: &ProvedMode, title: &str, name: String) -> Option<Named> {
-        let particles = self.system.particles();
+        let particles = self.named_particles();
         let slip = particles
             .iter()
             .enumerate()
@@ -481,7 +492,7 @@ impl DrawnState<'_> {
         let slipping: Vec<usize> = mode.moving.iter().map(|&k| slip[k]).collect();
         let drawn = BodyDrawing {
             coordinates: self.coordinates,
-            particles,
+            particles: &particles,
             mode: Some(BodyMode {
                 v: mode.displacement.as_ref()?,
                 slipping: &slipping,
