@@ -32,9 +32,12 @@ pub struct Sentence {
     pub evidence: Evidence,
 }
 
-const OUTSIDE: &str = "Outside (8), and so not answered: flutter of steady sliding, stick-slip \
-                       growth, finite motions, other contact states; \
-                       absence of divergence of the form (8) is not stability.";
+/// The beginning and the end of what is said of everything else.
+const OUTSIDE: [&str; 2] = [
+    "Outside (8), and so not answered: flutter of steady sliding",
+    ", stick-slip growth, finite motions, other contact states; absence of divergence of the form \
+     (8) is not stability.",
+];
 
 /// Ends of an enclosure in short decimals, rounded outwards.
 pub(super) fn between(v: &Interval) -> String {
@@ -281,10 +284,21 @@ impl Analysis {
         all.push(self.say_flutter());
         all.push(Sentence {
             topic: "outside",
-            text: OUTSIDE.into(),
+            text: self.outside_text(),
             evidence: Evidence::Exact("definition (8)"),
         });
         all
+    }
+
+    fn outside_text(&self) -> String {
+        let flutter = self.flutter.as_ref();
+        let is_seen = flutter.is_some_and(|flutter| !flutter.eigenvalues.is_empty());
+        let seen = if is_seen {
+            " (but for the eigenvalues above, in doubles)"
+        } else {
+            ""
+        };
+        OUTSIDE.join(seen)
     }
 
     fn say_divergence(&self) -> Sentence {

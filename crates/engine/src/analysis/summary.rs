@@ -9,7 +9,6 @@ use super::critical::CertifiedSolution;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::modes::Mode;
-use super::ranges::Range;
 use super::sentences::{between, down, exactly, up};
 use super::unbounded::UnboundedGrowth;
 use mceip_exact::{Interval, Rational, nearest_decimal, to_f64};
@@ -177,8 +176,7 @@ impl Analysis {
             return None;
         }
 
-        let is_sampled = |range: &Range| range.evidence.is_measured();
-        let elsewhere = if self.ranges.iter().any(is_sampled) {
+        let elsewhere = if self.has_samples() {
             "; elsewhere above the critical mu only samples are decided"
         } else {
             ""
@@ -187,6 +185,11 @@ impl Analysis {
             "Divergence is {}{elsewhere}.",
             clauses.join(", and ")
         ))
+    }
+
+    /// Is anything said of single mu, and not of the mu between them?
+    fn has_samples(&self) -> bool {
+        self.ranges.iter().any(|range| range.evidence.is_measured())
     }
 
     fn standing(&self) -> &'static str {
@@ -205,6 +208,10 @@ impl Analysis {
             (_, true) => {
                 "What is said to be present or absent is proved by certificates that the checker \
                  has accepted, or by an exact condition; the rest is open."
+            }
+            (Evidence::Certificate(_), false) if self.has_samples() => {
+                "All but what the samples suggest between them is proved by certificates that the \
+                 checker has accepted."
             }
             (Evidence::Certificate(_), false) => {
                 "All of it is proved by certificates that the checker has accepted."
