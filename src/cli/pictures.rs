@@ -1,7 +1,7 @@
 //! What the pages of `analyze` and `path` have in common: pictures with their captions, as figures
 //! and as files in folders; the levels of the chart of lambda against mu; warnings of the model.
 
-use super::common::CliError;
+use super::common::{CliError, aside};
 use super::job::Job;
 use super::output::Folder;
 use crate::picture::{BodyDrawing, ChartPoint, Content, Picture, body_picture, body_vtu};
@@ -68,8 +68,8 @@ pub(super) struct PictureArgs {
     /// the feature png.
     #[arg(long, value_name = "FOLDER", visible_alias = "figures")]
     pictures: Option<PathBuf>,
-    /// Write the body and its modes as VTU files, for ParaView, into this folder; the problem file
-    /// needs coordinates.
+    /// Write the pictures of the body and of its modes as VTU files, for ParaView, into this
+    /// folder; the file needs coordinates.
     #[arg(long, value_name = "FOLDER")]
     vtk: Option<PathBuf>,
 }
@@ -107,6 +107,10 @@ impl PictureFolders {
 
     /// Writes the pictures as SVG files, as PNG too in a build with the feature png; bodies as VTU.
     pub(super) fn write_all(&self, all: &[Named]) -> Result<(), CliError> {
+        if self.vtk.is_some() && all.iter().all(|named| named.vtu.is_none()) {
+            aside("mceip: --vtk: no body and no mode is drawn here, so that nothing is written");
+        }
+
         for named in all {
             if let Some(folder) = &self.pictures {
                 let svg = named.picture.to_svg();

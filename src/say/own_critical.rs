@@ -1,6 +1,6 @@
 //! The own critical friction of a body under loads in words, as a table and as JSON.
 
-use super::path::{LETTERS, amount_text, end_text, states_json};
+use super::path::{LETTERS, amount_text, apart_text, end_text, states_json};
 use super::{number_text, warnings_text};
 use crate::front::{
     Bracket, ExaminedEquilibrium, FrictionAnswer, FrictionPoint, OwnCritical, PathPlace,
@@ -16,7 +16,9 @@ use serde_json::{Value, json};
 pub(crate) fn text_of(own: &OwnCritical) -> String {
     let out = headlines(own).join("\n");
 
-    let warnings = warnings_text(&own.loads().as_file().warnings);
+    let mut warnings = warnings_text(&own.loads().as_file().warnings);
+    let examined = own.points.iter().flat_map(|point| &point.examined);
+    warnings += &apart_text(examined.map(|one| one.equilibrium.contact_states()));
     let mut table = Table::new(&HEADER);
     for row in rows_of(own) {
         table.row(row);

@@ -21,7 +21,7 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     let table = table_of(path, &followed.loads().step_names(), candidates);
     let end = end_text(path, candidates);
 
-    let loose = loose_text(followed.held_by_rounding());
+    let doubts = doubts_text(followed);
     let verified = if path.stretches.is_empty() {
         ""
     } else {
@@ -30,7 +30,7 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     };
     let mut out = format!(
         "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
-         {warnings}{loose}{LETTERS}\n\
+         {warnings}{doubts}{LETTERS}\n\
          {table}\n\
          {verified}{end}\n"
     );
@@ -42,18 +42,34 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     out
 }
 
-/// Where the body is held by rounding alone, and what to look at.
-pub(crate) fn loose_text(stretches: &[usize]) -> String {
-    if stretches.is_empty() {
+/// What makes one doubt the data, a line each: stretches in which rounding alone holds the body, a
+/// body that touches nothing.
+pub(crate) fn doubts_text(followed: &LoadPath) -> String {
+    let mut out = String::new();
+    let stretches = followed.held_by_rounding();
+    if !stretches.is_empty() {
+        out += &format!(
+            "WARNING: in the contact states of stretch {} nothing but the last digits of the \
+             stiffness holds the body: it can move without force, and what is computed there means \
+             nothing. {LOOK_AT}\n",
+            runs(stretches)
+        );
+    }
+
+    let stretches = followed.as_path().stretches.iter();
+    out + &apart_text(stretches.map(Stretch::equilibrium_states))
+}
+
+/// A warning where all of these equilibria touch nothing: no answer about them says much.
+pub(crate) fn apart_text<'a>(equilibria: impl Iterator<Item = &'a [ContactState]>) -> String {
+    let mut equilibria = equilibria.peekable();
+    let is_none = equilibria.peek().is_none();
+    let is_free = |state: &ContactState| *state == ContactState::Free;
+    if is_none || !equilibria.all(|states| states.iter().all(is_free)) {
         return String::new();
     }
 
-    format!(
-        "WARNING: in the contact states of stretch {} nothing but the last digits of the stiffness \
-         holds the body: it can move without force, and what is computed there means nothing. \
-         {LOOK_AT}\n",
-        runs(stretches)
-    )
+    format!("WARNING: no candidate is in contact in any of these equilibria. {LOOK_AT}\n")
 }
 
 /// What makes a body fly off, or its path end at once.

@@ -18,7 +18,7 @@ use crate::picture::{
 };
 use crate::say::counted;
 use crate::say::path::{
-    LETTERS, amount_text, causes_text, continuations_text, loose_text, of_which_body,
+    LETTERS, amount_text, causes_text, continuations_text, doubts_text, of_which_body,
 };
 use crate::say::path_analysis::{HEADER, rows_of, verdict_text};
 use crate::say::stretches::stretch_cells;
@@ -242,9 +242,9 @@ impl Shown<'_> {
                 Content::Paragraph(of_which_body(self.followed.is_in_doubles()).into()),
             ],
         };
-        if !self.followed.held_by_rounding().is_empty() {
-            let warning = loose_text(self.followed.held_by_rounding());
-            path.content.insert(0, Content::Warning(warning));
+        let doubts = doubts_text(self.followed);
+        if !doubts.is_empty() {
+            path.content.insert(0, Content::Warning(doubts));
         }
 
         let mut sections = vec![self.model_section()];
