@@ -8,6 +8,7 @@ use super::common::{CliError, aside, exit, print, require_count, require_threads
 use super::job::Job;
 use super::output::{Output, make};
 use crate::picture::{PROFILES, ProfileSeries, profile_picture};
+use mceip_engine::run::Watch;
 use mceip_model::file::{FRACTIONS, write_problem, write_problem_beside_matrices};
 use mceip_testkit::conform::{
     Case, CasePack, ConformComparison, ConformPlan, ConformRun, Flag, Group, INDEX_FORMAT,
@@ -33,32 +34,21 @@ pub(super) struct Args {
     /// which takes minutes.
     #[arg(
         long,
-        requires = "write",
         default_value_t = 1,
         value_parser = clap::value_parser!(u8).range(1..=2)
     )]
     tier: u8,
     /// With --write: say of each case how hard it is, by these runs (what --json printed).
-    #[arg(long, value_name = "RUN", requires = "write", num_args = 1..)]
+    #[arg(long, value_name = "RUN", num_args = 1..)]
     difficulty: Vec<PathBuf>,
     /// Compare runs over the same cases (what --json printed, two or more files): Markdown.
     #[arg(long, value_name = "RUN", num_args = 2.., conflicts_with_all = ["command", "write"])]
     compare: Vec<PathBuf>,
     /// With --compare: write the tables as LaTeX (booktabs) to this file.
-    #[arg(
-        long,
-        value_name = "OUT",
-        requires = "compare",
-        conflicts_with = "command"
-    )]
+    #[arg(long, value_name = "OUT")]
     latex: Option<PathBuf>,
     /// With --compare: draw a performance profile (Dolan and Moré 2002) to this file.
-    #[arg(
-        long,
-        value_name = "OUT",
-        requires = "compare",
-        conflicts_with = "command"
-    )]
+    #[arg(long, value_name = "OUT")]
     svg: Option<PathBuf>,
     /// Write each case to a folder of its own in this one: matrices as Matrix Market, the problem
     /// that names them, its answer.
@@ -123,6 +113,7 @@ const MAX_RANDOM: u64 = 1_000_000;
 
 /// Runs the program on every case and prints the summary; or writes the pack, or prints from it.
 pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
+    refuse_strays(args)?;
     if args.flags {
         return print_flags();
     }
@@ -139,8 +130,11 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     };
     if let Some(folder) = &args.write {
         say_difficulties(args, &mut pack)?;
+        let job = Job::begin_with_nothing_to_keep("cases");
+        let answered = job.watched(|watch| pack_files(&pack, watch));
+        job.end();
         let mut files = companions();
-        files.extend(pack_files(&pack)?);
+        files.extend(answered?);
         return write(folder, &files);
     }
 
@@ -287,7 +281,7 @@ fn print_list(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
     let only = flags(&args.only)?;
     for group in groups {
         for draft in &group.drafts {
-            let case = Case::answer(draft, args.as_pencil)?;
+            let case = Case::answer(draft, args.as_pencil, &Watch::nobody())?;
             if case.has_any(&only) {
                 let words = case.flag_words().join(" ");
                 print(&format!("{}  [{words}]  {}\n", case.id, case.comment))?;
@@ -300,7 +294,7 @@ fn print_list(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
 
 fn print_cases(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
     for draft in groups.iter().flat_map(|group| &group.drafts) {
-        let case = Case::answer(draft, args.as_pencil)?;
+        let case = Case::answer(draft, args.as_pencil, &Watch::nobody())?;
         let text = if args.json {
             format!("{:#}\n", case.json())
         } else {
@@ -310,6 +304,32 @@ fn print_cases(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
     }
 
     Ok(exit::DONE)
+}
+
+/// Refuses options that say nothing here. (What `requires` of clap lets pass: it is content where
+/// the option that is missing conflicts with one that is given.)
+fn refuse_strays(args: &Args) -> Result<(), CliError> {
+    if args.write.is_none() {
+        if args.tier != 1 {
+            let expected = "it with --write only (--pack spec/conformance-pack-2 runs tier 2)";
+            return Err(CliError::option("tier", expected, &args.tier.to_string()));
+        }
+        if let Some(run) = args.difficulty.first() {
+            let got = run.to_string_lossy();
+            return Err(CliError::option("difficulty", "it with --write only", &got));
+        }
+    }
+
+    if args.compare.is_empty() {
+        for (option, path) in [("latex", &args.latex), ("svg", &args.svg)] {
+            if let Some(path) = path {
+                let got = path.to_string_lossy();
+                return Err(CliError::option(option, "it with --compare only", &got));
+            }
+        }
+    }
+
+    Ok(())
 }
 
 /// The runs in these files, each by the name of its file.
@@ -373,8 +393,10 @@ fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> 
     make(folder)?;
     let mut count = 0;
     let mut fractions = 0;
+    let job = Job::begin_with_nothing_to_keep("cases");
     for draft in groups.iter().flat_map(|group| &group.drafts) {
-        let case = Case::answer(draft, args.as_pencil)?;
+        job.say(&draft.id);
+        let case = Case::answer(draft, args.as_pencil, &Watch::nobody())?;
         if !case.has_any(&only) {
             continue;
         }
@@ -389,12 +411,13 @@ fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> 
         }
         count += 1;
     }
+    job.end();
 
     print(&format!("{count} cases in {}\n", folder.display()))?;
     if fractions > 0 {
         aside(&format!(
-            "mceip: {fractions} of the matrices have fractions p/q: `mceip` reads them, scipy.io.mmread \
-             and others take p for the number without a word"
+            "mceip: {fractions} of the matrices have fractions p/q: `mceip` reads them, \
+             scipy.io.mmread and others take p for the number without a word"
         ));
     }
     Ok(exit::DONE)

@@ -10,6 +10,7 @@
 use crate::common::{exits, exits_with_json, read, refused, repository, run_words};
 use crate::program::Folder;
 use mceip_engine::foreign::{Effort, ForeignReport, ForeignVerdict, judge};
+use mceip_engine::run::Watch;
 use mceip_model::file::read_problem;
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups};
 use rayon::prelude::*;
@@ -107,7 +108,7 @@ fn cases() -> Vec<Case> {
     let drafts: Vec<_> = groups.into_iter().flat_map(|group| group.drafts).collect();
     drafts
         .par_iter()
-        .map(|draft| Case::answer(draft, false).unwrap())
+        .map(|draft| Case::answer(draft, false, &Watch::nobody()).unwrap())
         .collect()
 }
 

@@ -7,6 +7,7 @@
 
 use crate::common::{exits, exits_with_json, read, refused, repository, run, run_words};
 use crate::program::Folder;
+use mceip_engine::run::Watch;
 use mceip_model::file::read_problem;
 use mceip_testkit::TestkitError;
 use mceip_testkit::conform::{
@@ -37,7 +38,7 @@ fn with_list(draft: &Draft, change: impl FnOnce(&mut Vec<Value>)) -> Draft {
 
 #[track_caller]
 fn is_refused(draft: &Draft) {
-    let refused = Case::answer(draft, false);
+    let refused = Case::answer(draft, false, &Watch::nobody());
     assert!(
         matches!(refused, Err(TestkitError::Answer { .. })),
         "{refused:?}"
@@ -113,7 +114,7 @@ fn the_committed_tier_2_is_the_regenerated_one() {
 #[ignore = "minutes"]
 fn every_answer_of_tier_2_holds() {
     for draft in tier2().groups.iter().flat_map(|group| &group.drafts) {
-        let case = Case::answer(draft, false).unwrap();
+        let case = Case::answer(draft, false, &Watch::nobody()).unwrap();
         let own = case.judge(&case.answer_json().to_string());
         assert_eq!(own.label, Label::Correct, "{}: {}", case.id, own.detail);
         assert_eq!(own.found, case.parts(), "{}", case.id);
@@ -131,7 +132,7 @@ fn every_answer_of_tier_2_holds() {
 #[test]
 fn a_proved_list_is_held_against_a_search() {
     let draft = draft("eicp-1");
-    let case = Case::answer(&draft, false).unwrap();
+    let case = Case::answer(&draft, false, &Watch::nobody()).unwrap();
     let CaseAnswer::Certified(answer) = &case.answer else {
         panic!("{}: expected a certified answer", case.id)
     };
@@ -158,7 +159,7 @@ fn a_best_known_list_may_be_improved() {
     let whole = draft("eicp-6");
     let report = whole.listed.clone().unwrap().to_string();
     let short = with_list(&whole, |list| drop(list.pop()));
-    let case = Case::answer(&short, false).unwrap();
+    let case = Case::answer(&short, false, &Watch::nobody()).unwrap();
     assert_eq!(case.completeness(), Some(Completeness::BestKnown));
     assert!(case.parts() > 0);
 
@@ -174,12 +175,18 @@ fn a_best_known_list_may_be_improved() {
     }
 
     is_refused(&with_list(&whole, |list| list[0]["value"] = json!("1e3")));
+
+    // Else a program that finds nothing would be correct.
+    let emptied = with_list(&whole, Vec::clear);
+    let refused = Case::answer(&emptied, false, &Watch::nobody());
+    let is_refused = matches!(refused, Err(TestkitError::NothingKnown { .. }));
+    assert!(is_refused, "{refused:?}");
 }
 
 /// A system sent as its pencil has the same answer.
 #[test]
 fn a_certified_answer_holds_for_the_reduced_pencil() {
-    let case = Case::answer(&draft("system-1"), true).unwrap();
+    let case = Case::answer(&draft("system-1"), true, &Watch::nobody()).unwrap();
     let answer = case.answer_json();
     assert_eq!(answer["problem_sha256"], case.problem.sha256());
     assert!(answer["variables"].is_null());
@@ -313,6 +320,8 @@ fn runs_are_compared_side_by_side() {
         &["slower", "the options --as-pencil --lines"],
     );
     refused(&format!("conform --svg {svg} -- true"), &["--svg"]);
+    refused("conform --tier 2 -- true", &["--tier", "--pack"]);
+    refused("conform --difficulty a.json --list", &["--difficulty"]);
 }
 
 /// An exported case is read back to the same problem, and its answer belongs to it.

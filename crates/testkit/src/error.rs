@@ -107,6 +107,12 @@ pub enum TestkitError {
         /// Cones and continua.
         families: usize,
     },
+    /// A best known list without a solution.
+    #[error("{case}: expected a best known solution or a proof that there is none, got neither")]
+    NothingKnown {
+        /// The case.
+        case: String,
+    },
     /// A word that a case may not have there.
     #[error("{case}: expected {what}, got {got:?}")]
     Word {

@@ -9,6 +9,7 @@ use super::certified::{CertifiedAnswer, Completeness};
 use super::flag::{Flag, of_certified, of_enumeration};
 use crate::error::TestkitError;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
+use mceip_engine::run::Watch;
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Problem, Reduced};
@@ -36,10 +37,10 @@ pub struct Draft {
 }
 
 worded! {
-    /// How the rivals of spec/rivals.md did on a case: each of them labels it by what it reported.
+    /// How well the rivals of spec/rivals.md did on a case.
     Difficulty:
     Easy "easy" "Every rival is correct.",
-    Medium "medium" "Neither of the two others.",
+    Medium "medium" "Some rival is correct or finds half of the solutions, and some is not correct.",
     Hard "hard" "No rival is correct, and none finds half of the solutions.",
 }
 
@@ -93,12 +94,13 @@ pub struct Case {
 
 impl Case {
     /// Answers a draft. With `as_pencil` a system is replaced by its reduced pencil first (another
-    /// problem with another digest, and the same values and x).
+    /// problem with another digest, and the same values and x). A search that `watch` cancels is
+    /// refused as one that leaves regions open.
     ///
     /// # Errors
     /// [`TestkitError::Oracle`] for a problem beyond the plain oracle, [`TestkitError::Problem`]
     /// for a system that lacks what its unknown needs, and what [`CertifiedAnswer`] is refused for.
-    pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, TestkitError> {
+    pub fn answer(draft: &Draft, as_pencil: bool, watch: &Watch<'_>) -> Result<Case, TestkitError> {
         let reduced = reduce(&draft.problem).and_then(Reduced::without_zero);
         let reduced = reduced.map_err(|e| TestkitError::problem(&draft.id, e))?;
 
@@ -111,7 +113,7 @@ impl Case {
                 })?)
             }
             Some(completeness) => {
-                let found = CertifiedAnswer::of_draft(draft, &reduced, completeness)?;
+                let found = CertifiedAnswer::of_draft(draft, &reduced, completeness, watch)?;
                 CaseAnswer::Certified(found)
             }
         };

@@ -54,20 +54,21 @@ impl CertifiedAnswer {
     ///
     /// # Errors
     /// [`TestkitError::NotProved`] where the search leaves regions open or finds families,
-    /// [`TestkitError::Answer`] for a list that is not right, [`TestkitError`] for a problem that a
-    /// search refuses.
+    /// [`TestkitError::NothingKnown`] for a best known list of nothing, [`TestkitError::Answer`] for
+    /// a list that is not right, [`TestkitError`] for a problem that a search refuses.
     pub(super) fn of_draft(
         draft: &Draft,
         reduced: &Reduced,
         completeness: Completeness,
+        watch: &Watch<'_>,
     ) -> Result<CertifiedAnswer, TestkitError> {
         match (completeness, &draft.listed) {
-            (Completeness::Proved, _) => proved(draft, reduced),
+            (Completeness::Proved, _) => proved(draft, reduced, watch),
             (Completeness::BestKnown, Some(report)) => {
                 let accepted = certified_list(draft, reduced, report)?;
-                Ok(best_known(draft, reduced, accepted, report.clone()))
+                best_known(draft, reduced, accepted, report.clone())
             }
-            (Completeness::BestKnown, None) => searched(draft, reduced),
+            (Completeness::BestKnown, None) => searched(draft, reduced, watch),
         }
     }
 
@@ -115,9 +116,13 @@ fn text_of(number: &Value) -> String {
 }
 
 /// All solutions, by the complete search.
-fn proved(draft: &Draft, reduced: &Reduced) -> Result<CertifiedAnswer, TestkitError> {
+fn proved(
+    draft: &Draft,
+    reduced: &Reduced,
+    watch: &Watch<'_>,
+) -> Result<CertifiedAnswer, TestkitError> {
     let problem = &draft.problem;
-    let completed = complete(problem, &CompleteOptions::default(), &Watch::nobody())?;
+    let completed = complete(problem, &CompleteOptions::default(), &watch.quiet())?;
     let cover = &completed.cover;
     if !cover.is_plain_list() {
         return Err(TestkitError::NotProved {
@@ -168,7 +173,11 @@ fn report_on(draft: &Draft, reduced: &Reduced, completed: &Completed) -> Value {
 }
 
 /// What many starts find.
-fn searched(draft: &Draft, reduced: &Reduced) -> Result<CertifiedAnswer, TestkitError> {
+fn searched(
+    draft: &Draft,
+    reduced: &Reduced,
+    watch: &Watch<'_>,
+) -> Result<CertifiedAnswer, TestkitError> {
     let problem = &draft.problem;
     let starts = (WORK / reduced.pencil.order()).max(10);
     let search = Search {
@@ -176,7 +185,7 @@ fn searched(draft: &Draft, reduced: &Reduced) -> Result<CertifiedAnswer, Testkit
         curves: false,
         ..Search::default()
     };
-    let found = multistart(problem, reduced, &search, &Watch::nobody())?;
+    let found = multistart(problem, reduced, &search, &watch.quiet())?;
 
     let checker = ClaimChecker::new(problem);
     let mut accepted = Vec::new();
@@ -201,17 +210,23 @@ fn searched(draft: &Draft, reduced: &Reduced) -> Result<CertifiedAnswer, Testkit
         enumeration: None,
         cover: None,
     });
-    Ok(best_known(draft, reduced, accepted, report))
+    best_known(draft, reduced, accepted, report)
 }
 
-/// The answer that knows these solutions: outside the open region, which is everything, there is
-/// nothing else.
+/// The answer that knows these solutions: the open region is everything. A list of nothing is no
+/// answer: a program that finds nothing would be correct.
 fn best_known(
     draft: &Draft,
     reduced: &Reduced,
     accepted: Vec<AcceptedClaim>,
     report: Value,
-) -> CertifiedAnswer {
+) -> Result<CertifiedAnswer, TestkitError> {
+    if accepted.is_empty() {
+        return Err(TestkitError::NothingKnown {
+            case: draft.id.clone(),
+        });
+    }
+
     let window = draft.problem.window();
     let everything = OpenRegion {
         min: window.min().clone(),
@@ -220,7 +235,7 @@ fn best_known(
         undecided: reduced.pencil.slip(),
     };
 
-    CertifiedAnswer {
+    Ok(CertifiedAnswer {
         completeness: Completeness::BestKnown,
         cover: AcceptedCover {
             solutions: accepted,
@@ -230,7 +245,7 @@ fn best_known(
         },
         report,
         certificate: None,
-    }
+    })
 }
 
 /// What the checker accepts of a list: every one of its solutions, no two the same, each with the

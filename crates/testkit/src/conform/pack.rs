@@ -10,6 +10,7 @@ use super::certified::Completeness;
 use super::flag::Flag;
 use super::wrong::Bug;
 use crate::error::TestkitError;
+use mceip_engine::run::{Progress, Watch};
 use mceip_model::file::{from_json, read_problem, read_text, require_format};
 use mceip_model::{ModelError, sha256};
 use rayon::prelude::*;
@@ -17,6 +18,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The format of a group of cases.
 pub const PACK_FORMAT: &str = "mceip-pack/1";
@@ -54,20 +56,32 @@ pub struct CasePack {
     pub groups: Vec<Group>,
 }
 
-/// The files of the pack, name and content: groups in order, then `index.json`.
+/// The files of the pack, name and content: groups in order, then `index.json`. `watch` hears how
+/// many cases are answered.
 ///
 /// # Errors
 /// [`TestkitError`] for a problem whose answer is not found.
-pub fn pack_files(pack: &CasePack) -> Result<Vec<(String, String)>, TestkitError> {
+pub fn pack_files(
+    pack: &CasePack,
+    watch: &Watch<'_>,
+) -> Result<Vec<(String, String)>, TestkitError> {
     let mut files = Vec::new();
+    let total = pack.groups.iter().map(|group| group.drafts.len()).sum();
+    let answered = AtomicUsize::new(0);
+    let answer = |draft: &Draft| {
+        let case = Case::answer(draft, false, watch)?;
+        let count = answered.fetch_add(1, Ordering::Relaxed) + 1;
+        watch.report(&Progress::of("cases", count, total));
+        Ok(case)
+    };
     let mut counts = Counts::default();
 
     for group in &pack.groups {
         let cases: Vec<Case> = group
             .drafts
             .par_iter()
-            .map(|d| Case::answer(d, false))
-            .collect::<Result<_, _>>()?;
+            .map(answer)
+            .collect::<Result<_, TestkitError>>()?;
         let lines: Vec<CaseLine> = cases.par_iter().map(CaseLine::of).collect();
 
         let text = group_text(group, &lines);
@@ -374,7 +388,7 @@ fn read_case(raw: &RawCase) -> Result<Draft, TestkitError> {
         return Ok(draft);
     }
 
-    let case = Case::answer(&draft, false)?;
+    let case = Case::answer(&draft, false, &Watch::nobody())?;
     if case.answer_json() != raw.answer {
         return Err(TestkitError::Answer { case: draft.id });
     }

@@ -141,7 +141,12 @@ impl Run<'_> {
             return Ok(None);
         }
 
-        let case = self.case(k)?;
+        let case = match self.case(k) {
+            Ok(case) => case,
+            // What was cancelled is no answer.
+            Err(_) if self.watch.is_cancelled() => return Ok(None),
+            Err(error) => return Err(error),
+        };
         let timed = if case.has_any(&self.plan.only) {
             self.judgement(&case, place)?
         } else {
@@ -167,12 +172,12 @@ impl Run<'_> {
     /// The `k`-th case with its answer.
     fn case(&self, k: usize) -> Result<Case, TestkitError> {
         if let Some(draft) = self.fixed.get(k) {
-            return Case::answer(draft, self.plan.as_pencil);
+            return Case::answer(draft, self.plan.as_pencil, self.watch);
         }
 
         let draft = random_draft(k - self.fixed.len(), self.plan.seed)
             .map_err(|e| TestkitError::problem(&format!("random case {k}"), e))?;
-        Case::answer(&draft, self.plan.as_pencil)
+        Case::answer(&draft, self.plan.as_pencil, self.watch)
     }
 
     /// Sends the case to the program and judges how it ends. `None` if it was interrupted.

@@ -63,25 +63,29 @@ fn of_pencil(pencil: Pencil, unknown: Unknown) -> Result<Problem, ModelError> {
     Problem::new(Body::Pencil(pencil), unknown, Window::all())
 }
 
-/// n_s, n_f and what is known of the answer, for each random pencil.
-const RANDOM: [(usize, usize, Completeness); 10] = [
-    (10, 0, Proved),
-    (10, 0, Proved),
-    (10, 5, Proved),
-    (15, 0, Proved),
-    (20, 0, Proved),
-    (20, 0, Proved),
-    (14, 6, Proved),
-    (30, 0, Proved),
-    (50, 0, BestKnown),
-    (100, 0, BestKnown),
+/// n_s, n_f and what is known of the answers, of MCEIP-lambda2 and of MCEIP-mu.
+const RANDOM: [(usize, usize, [Completeness; 2]); 10] = [
+    (10, 0, [Proved, Proved]),
+    (10, 0, [Proved, Proved]),
+    (10, 5, [Proved, Proved]),
+    (15, 0, [Proved, Proved]),
+    (20, 0, [Proved, Proved]),
+    (20, 0, [Proved, Proved]),
+    (14, 6, [Proved, Proved]),
+    (30, 0, [Proved, Proved]),
+    (50, 0, [Proved, BestKnown]),
+    (100, 0, [BestKnown, BestKnown]),
 ];
 
 /// Random admissible pencils: K0 and M are GG' + nI, so that their eigenvalues are of one order,
 /// and the entries of K1 are below sqrt(12 n), so that K1 is of that order too.
 fn random(name: &str, number: u64, unknown: Unknown) -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
-    for (k, (n_s, n_f, completeness)) in RANDOM.into_iter().enumerate() {
+    for (k, (n_s, n_f, [of_lambda2, of_mu])) in RANDOM.into_iter().enumerate() {
+        let completeness = match unknown {
+            Unknown::Lambda2 => of_lambda2,
+            Unknown::Mu => of_mu,
+        };
         let n = n_s + n_f;
         let shape = PencilShape {
             n_s,
