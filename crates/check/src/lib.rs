@@ -20,7 +20,9 @@
 //! with mu in [0, `below`] and lambda^2 >= 0. Its evidence is a partition as well. Another one
 //! states presence (`presence`): there is a solution for every mu in [`from`, `to`]. A third one
 //! states the contact states of an equilibrium under loads (`equilibrium`); its evidence is one
-//! solution of a pencil made of the loads and the states.
+//! solution of a pencil made of the loads and the states. A fourth one states that an equilibrium
+//! is stable for every mu in (`from`, `to`] (`stability`); its evidence are matrices below the
+//! condensed pencil at both ends.
 //!
 //! The checker multiplies and compares integers and fractions. It has no floating point number, it
 //! solves no linear system and finds no root, and it shares no algorithm with the code that finds
@@ -45,6 +47,7 @@ mod pencil;
 mod presence;
 mod proved;
 mod reason;
+mod stability;
 
 pub use backward_error::backward_error;
 pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
@@ -53,6 +56,7 @@ pub use equilibrium::{AcceptedEquilibrium, EquilibriumPencil, check_equilibrium}
 pub use presence::{AcceptedPresence, check_presence};
 pub use proved::{NotAccepted, Provable, Proved};
 pub use reason::{Reason, Rejected};
+pub use stability::{AcceptedStability, check_stability};
 
 use crate::certificate::{Certificate, Claim};
 use cover::AcceptedSolution;

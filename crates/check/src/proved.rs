@@ -7,12 +7,14 @@
 
 use crate::certificate::{
     Certificate, Claim, CriticalCertificate, EquilibriumCertificate, Node, PresenceCertificate,
+    StabilityCertificate,
 };
 use crate::{
-    Accepted, AcceptedAbsence, AcceptedEquilibrium, AcceptedPresence, LeafPlace, Rejected,
+    Accepted, AcceptedAbsence, AcceptedEquilibrium, AcceptedPresence, AcceptedStability, LeafPlace,
+    Rejected,
 };
 use crate::{allowed_work, audit, audit_critical, work_of};
-use crate::{check, check_critical, check_equilibrium, check_presence};
+use crate::{check, check_critical, check_equilibrium, check_presence, check_stability};
 use mceip_model::{LoadedBody, ModelError, Problem};
 
 /// The kinds are those of this crate: nobody else says what is accepted.
@@ -79,6 +81,12 @@ provable!(
     Problem,
     AcceptedPresence,
     check_presence
+);
+provable!(
+    StabilityCertificate,
+    Problem,
+    AcceptedStability,
+    check_stability
 );
 provable!(
     EquilibriumCertificate,

@@ -34,11 +34,19 @@ impl From<Reason> for Rejected {
     }
 }
 
+impl From<CoverFault> for Reason {
+    fn from(fault: CoverFault) -> Reason {
+        Reason::Matrices { fault }
+    }
+}
+
 impl Reason {
     /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
     pub fn name(&self) -> String {
         match self {
-            Reason::Cover { fault, .. } | Reason::Boxes { fault, .. } => {
+            Reason::Cover { fault, .. }
+            | Reason::Boxes { fault, .. }
+            | Reason::Matrices { fault } => {
                 format!("Cover.{}", variant_name(&format!("{fault:?}")))
             }
             other => variant_name(&format!("{other:?}")),
@@ -417,6 +425,55 @@ pub enum Reason {
         node: Option<usize>,
         /// What is wrong.
         fault: CoverFault,
+    },
+    /// The condensed pencil, or a matrix that has to be definite, does not hold.
+    #[error("{fault}")]
+    Matrices {
+        /// What is wrong.
+        fault: CoverFault,
+    },
+    /// The part of the accelerations that friction feels and `inertia` does not take away is too
+    /// large.
+    #[error("inertia: expected 2 to sum |E| <= mass_sigma = {allowed}, got {got}")]
+    Inertia {
+        /// `mass_sigma`.
+        allowed: Rational,
+        /// Twice `to` times the sum.
+        got: Rational,
+    },
+    /// Q of an end is not symmetric.
+    #[error("{end} end: symmetric: expected entry ({column}, {row}) at ({row}, {column})")]
+    NotSymmetric {
+        /// `lower` or `upper`.
+        end: &'static str,
+        /// Row, by slip variables.
+        row: usize,
+        /// Column.
+        column: usize,
+    },
+    /// Q of an end is not below the condensed pencil.
+    #[error("{end} end: symmetric[{row}][{column}]: expected at most {limit}, got {got}")]
+    NotBelow {
+        /// `lower` or `upper`.
+        end: &'static str,
+        /// Row, by slip variables.
+        row: usize,
+        /// Column.
+        column: usize,
+        /// The least that the entry of T less theta can be.
+        limit: Rational,
+        /// The entry of Q.
+        got: Rational,
+    },
+    /// b of an end is too small.
+    #[error("{end} end: bounds[{index}]: expected at least mu a + rho >= 0, got {got}")]
+    Bound {
+        /// `lower` or `upper`.
+        end: &'static str,
+        /// The slip variable.
+        index: usize,
+        /// b_i.
+        got: Rational,
     },
     /// A complete set does not hold.
     #[error("complete set{}: {fault}", place(*piece, *node))]

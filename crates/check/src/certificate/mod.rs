@@ -1,5 +1,6 @@
 //! `mceip-certificate/1`: what a certificate says, and its file form. (`critical` does the same for
-//! `mceip-critical/1`, `presence` for `mceip-presence/1`, `equilibrium` for `mceip-equilibrium/1`.)
+//! `mceip-critical/1`, `presence` for `mceip-presence/1`, `equilibrium` for `mceip-equilibrium/1`,
+//! `stability` for `mceip-stability/1`.)
 //!
 //! This module holds data and reads and writes it; it decides nothing. A certificate names its
 //! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
@@ -20,6 +21,7 @@ mod critical;
 mod equilibrium;
 mod presence;
 mod row;
+mod stability;
 pub use cover::{
     Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
     Node, Piece, Polynomials, Root, RootOutcome, Support, SupportPoint, Tail, VariableState,
@@ -33,6 +35,7 @@ pub use equilibrium::{
 };
 pub use presence::{PRESENCE_FORMAT, PresenceCertificate, PresencePiece};
 pub use row::IntegerRow;
+pub use stability::{STABILITY_FORMAT, StabilityCertificate, StabilityCondensation, StabilityEnd};
 
 /// The format this program reads and writes.
 pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";

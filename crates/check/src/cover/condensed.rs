@@ -66,13 +66,23 @@ pub(super) fn of<'a, A: AnchorOfParts, T>(
         tau: &condensation.mass_sigma.0,
         mass_factor: condensation.mass_factor.as_ref(),
     };
-    let blocks = integral_blocks(parts);
-    check_hypotheses(&blocks[0], bounds)?;
 
     let mut anchors: Vec<Vec<AnchorPolynomials<'a>>> = Vec::new();
     for anchor in &condensation.anchors {
         anchors.push((0..parts.len()).map(|part| anchor.of_part(part)).collect());
     }
+
+    with_anchors(parts, bounds, anchors)
+}
+
+/// The same with the bounds of F and, anchor by anchor, the polynomials W and V of each part.
+pub(super) fn with_anchors<'a>(
+    parts: &[&Rows],
+    bounds: FreeBounds<'a>,
+    anchors: Vec<Vec<AnchorPolynomials<'a>>>,
+) -> Result<Anchors<'a>, CoverFault> {
+    let blocks = integral_blocks(parts);
+    check_hypotheses(&blocks[0], bounds)?;
 
     let has_reversed = anchors.iter().any(|anchor| anchor[0].reversed);
     let reversed: Vec<Rows> = if has_reversed && bounds.tau.is_positive() {
@@ -176,21 +186,21 @@ impl<'a> Anchors<'a> {
 
 /// F(t) >= (sigma + t tau) I, by Cholesky factors.
 #[derive(Clone, Copy)]
-struct FreeBounds<'a> {
-    sigma: &'a Rational,
-    stiffness_factor: &'a Factor,
-    tau: &'a Rational,
-    mass_factor: Option<&'a Factor>,
+pub(super) struct FreeBounds<'a> {
+    pub(super) sigma: &'a Rational,
+    pub(super) stiffness_factor: &'a Factor,
+    pub(super) tau: &'a Rational,
+    pub(super) mass_factor: Option<&'a Factor>,
 }
 
 /// The polynomials W and V of an anchor.
 #[derive(Clone, Copy)]
 pub(super) struct AnchorPolynomials<'a> {
-    center: &'a Rational,
-    reversed: bool,
-    right: &'a [IntegerMatrix],
+    pub(super) center: &'a Rational,
+    pub(super) reversed: bool,
+    pub(super) right: &'a [IntegerMatrix],
     /// `None`: V is W.
-    left: Option<&'a [IntegerMatrix]>,
+    pub(super) left: Option<&'a [IntegerMatrix]>,
 }
 
 /// An anchor as a file spells it.

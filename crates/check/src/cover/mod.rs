@@ -62,6 +62,7 @@ mod regular;
 mod root;
 mod rootless;
 mod sign_budget;
+pub(crate) mod stability;
 mod support;
 pub(crate) mod walk;
 
