@@ -7,6 +7,7 @@ use super::divergence::{Divergence, Verdict};
 use super::evidence::Proof;
 use super::flutter::Flutter;
 use super::ranges::{Range, Sample};
+use super::stability::Stability;
 use super::threshold::StaticThreshold;
 use super::unbounded::UnboundedGrowth;
 use mceip_exact::Rational;
@@ -40,6 +41,8 @@ pub struct Analysis {
     pub critical: Critical,
     /// The mu of unbounded growth, where the infimum lies there.
     pub unbounded: Option<UnboundedGrowth>,
+    /// Up to which mu the equilibrium is proved to be stable; `None` where that is proved of no mu.
+    pub stability: Option<Stability>,
     /// Where in mu divergence exists.
     pub ranges: Vec<Range>,
     /// The decided values of mu behind the ranges.

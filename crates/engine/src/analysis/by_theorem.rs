@@ -124,6 +124,7 @@ pub(super) fn nothing_slips(
             unproved: None,
         },
         unbounded: None,
+        stability: None,
         ranges: vec![everywhere],
         samples: Vec::new(),
         necessary: Necessary {

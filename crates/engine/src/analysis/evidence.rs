@@ -2,7 +2,9 @@
 //! measurements.
 
 use mceip_check::Proved;
-use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
+use mceip_check::certificate::{
+    Certificate, CriticalCertificate, PresenceCertificate, StabilityCertificate,
+};
 use mceip_model::{ModelError, Problem};
 
 /// What stands behind a sentence.
@@ -58,6 +60,8 @@ pub enum ProofCertificate {
     Absence(Proved<CriticalCertificate>),
     /// A solution for every friction of an interval (`mceip-presence/1`).
     Presence(Proved<PresenceCertificate>),
+    /// Stability for every friction of an interval (`mceip-stability/1`).
+    Stability(Proved<StabilityCertificate>),
 }
 
 impl ProofCertificate {
@@ -70,6 +74,7 @@ impl ProofCertificate {
             ProofCertificate::Solutions(proved) => proved.file(),
             ProofCertificate::Absence(proved) => proved.file(),
             ProofCertificate::Presence(proved) => proved.file(),
+            ProofCertificate::Stability(proved) => proved.file(),
         }
     }
 }

@@ -233,6 +233,14 @@ impl Analysis {
         })
     }
 
+    fn stability_json(&self, paths: &[String]) -> Option<Value> {
+        let stability = self.stability.as_ref()?;
+        Some(json!({
+            "to": stability.to.to_string(),
+            "evidence": self.evidence_json(&stability.evidence, paths),
+        }))
+    }
+
     fn necessary_json(&self) -> Value {
         let necessary = &self.necessary;
         json!({
@@ -270,6 +278,7 @@ impl Analysis {
             "divergence": self.divergence_json(),
             "static_threshold": self.threshold_json(),
             "critical": self.critical_json(paths),
+            "stability": self.stability_json(paths),
             "ranges": ranges,
             "samples": samples,
             "necessary": self.necessary_json(),

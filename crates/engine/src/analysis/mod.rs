@@ -29,6 +29,7 @@ mod modes;
 mod presence;
 mod ranges;
 mod sentences;
+mod stability;
 mod summary;
 mod threshold;
 mod unbounded;
@@ -44,6 +45,7 @@ pub use model::{AnalysisOptions, MAX_SAMPLES};
 pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
+pub use stability::Stability;
 pub use threshold::StaticThreshold;
 pub use unbounded::UnboundedGrowth;
 
@@ -119,6 +121,8 @@ pub fn analyse(
     let critical = of_ranges.critical;
     let unbounded = unbounded::unbounded(&model, &necessary, &critical, &mut proofs)?;
 
+    let stability = stability(&model, &known, &mut proofs);
+
     let flutter = if watch.is_cancelled() {
         None
     } else {
@@ -142,6 +146,7 @@ pub fn analyse(
         threshold,
         critical,
         unbounded,
+        stability,
         ranges: of_ranges.ranges,
         samples: of_ranges.samples,
         necessary,
@@ -181,6 +186,26 @@ pub fn divergence_at(
     let at_friction = AtFriction::decide(&model, &families, &necessary, friction)?;
 
     Ok((at_friction.divergence, at_friction.proof))
+}
+
+/// Up to which mu the equilibrium is stable, with the certificate among the proofs.
+fn stability(
+    model: &AnalysisModel<'_>,
+    known: &KnownOfSystem<'_>,
+    proofs: &mut Vec<Proof>,
+) -> Option<Stability> {
+    model.watch.report(&Progress::stage("stability at rest"));
+    let proved = stability::stable_until(model, known.families, known.problem)?;
+    let to = proved.accepted().to.clone();
+    let certificate = ProofCertificate::Stability(proved);
+    let proof = Proof::new("stable", known.problem.clone(), certificate);
+    model.keep(&proof.name, &proof.problem, &proof.certificate);
+    proofs.push(proof);
+
+    Some(Stability {
+        to,
+        evidence: Evidence::Certificate(proofs.len() - 1),
+    })
 }
 
 /// What every search of a system in which something slips begins with.

@@ -268,6 +268,7 @@ impl Analysis {
     pub fn sentences(&self) -> Vec<Sentence> {
         let mut all = vec![self.say_divergence()];
         all.extend(self.say_modes());
+        all.extend(self.say_stability());
         all.push(self.say_threshold());
         all.extend(self.say_without_friction());
         all.extend(self.say_critical());
@@ -389,6 +390,35 @@ impl Analysis {
             text,
             evidence: self.divergence.evidence.clone(),
         }
+    }
+
+    /// Up to which mu a small disturbance stays small.
+    fn say_stability(&self) -> Option<Sentence> {
+        let stability = self.stability.as_ref()?;
+        let at_this_mu = if self.is_stable() {
+            "so at this one too"
+        } else if self.divergence.verdict == Verdict::Present {
+            "at this one it is unstable"
+        } else {
+            "at this one stability is not proved"
+        };
+
+        Some(Sentence {
+            topic: "stability",
+            text: format!(
+                "Stability: the equilibrium is STABLE for every mu with 0 < mu <= {}, with this \
+                 contact state: a motion that begins near it, in contact, stays near it; \
+                 {at_this_mu}.",
+                down(&stability.to)
+            ),
+            evidence: stability.evidence.clone(),
+        })
+    }
+
+    /// Is the equilibrium proved to be stable at the mu that was asked for?
+    pub(super) fn is_stable(&self) -> bool {
+        let stability = self.stability.as_ref();
+        self.friction.is_positive() && stability.is_some_and(|found| self.friction <= found.to)
     }
 
     fn say_threshold(&self) -> Sentence {

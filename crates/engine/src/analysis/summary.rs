@@ -17,7 +17,9 @@ use num_traits::Zero;
 impl Analysis {
     /// The answer in one paragraph.
     pub fn summary(&self) -> String {
-        let mut parts = vec![self.verdict_at_friction(), self.critical_bounds()];
+        let mut parts = vec![self.verdict_at_friction()];
+        parts.extend(self.stable_range());
+        parts.push(self.critical_bounds());
         parts.extend(self.presence());
         parts.push(self.standing().to_string());
         parts.join(" ")
@@ -45,6 +47,11 @@ impl Analysis {
         let mu = exactly(&self.friction);
         let verdict = match self.divergence.verdict {
             Verdict::Present => self.instability(),
+            Verdict::Absent if self.is_stable() => {
+                "the equilibrium is stable: a motion that begins near it, in contact, stays near \
+                 it, and none can diverge (divergence of the form (8) is ABSENT)"
+                    .into()
+            }
             Verdict::Absent => "no motion in a fixed direction can grow without oscillation \
                                 (divergence of the form (8) is ABSENT)"
                 .into(),
@@ -77,6 +84,12 @@ impl Analysis {
             "the equilibrium is unstable: a motion in a fixed direction can {grows} (divergence \
              of the form (8) is PRESENT){rate}"
         )
+    }
+
+    /// Up to which mu stability is proved.
+    fn stable_range(&self) -> Option<String> {
+        let to = down(&self.stability.as_ref()?.to);
+        Some(format!("It is stable for every mu > 0 up to {to}."))
     }
 
     fn critical_bounds(&self) -> String {

@@ -43,10 +43,7 @@ pub(crate) fn tail(pencil: &Pencil) -> Option<Tail> {
 pub(crate) fn definite_at(pencil: &Pencil, value: &Rational) -> Option<Factor> {
     let a = Skyline::symmetric(pencil.a());
     let b = Skyline::symmetric(pencil.b());
-    let sum = a.combine(to_f64(value), &b);
-    let slack = sum.below_spectrum()?;
-    let factor = sum.shifted(-slack).cholesky()?;
-    Some(factor.rounded(slack))
+    a.combine(to_f64(value), &b).factor_of_definite()
 }
 
 /// The factor that proves sym(B) positive semidefinite, none for a non-negative diagonal; `None`

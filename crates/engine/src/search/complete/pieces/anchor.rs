@@ -490,14 +490,14 @@ fn column_norms(coefficients: &[SlipColumns], factors: &[f64]) -> ColumnNorms {
 
 /// A matrix rounded to integers over a power of two: by rows as the certificate has it, and by
 /// columns in doubles.
-struct Rounded {
-    integers: IntegerMatrix,
+pub(crate) struct Rounded {
+    pub(crate) integers: IntegerMatrix,
     columns: SlipColumns,
 }
 
 impl Rounded {
     /// Rounds columns so that the largest entry has about this many bits.
-    fn of(columns: &SlipColumns, bits: i32) -> Rounded {
+    pub(crate) fn of(columns: &SlipColumns, bits: i32) -> Rounded {
         let largest = columns
             .iter()
             .flatten()

@@ -259,14 +259,15 @@ fn demand_symmetry(blocks: &PencilBlocks) -> Result<(), CompleteError> {
 }
 
 /// A_ff >= sigma I and its evidence.
-struct StiffnessBound {
-    sigma: Rational,
-    factor: Factor,
+pub(crate) struct StiffnessBound {
+    pub(crate) sigma: Rational,
+    pub(crate) factor: Factor,
     /// The Cholesky factor of A_ff itself.
-    plain_factor: Skyline,
+    pub(crate) plain_factor: Skyline,
 }
 
-fn stiffness_bound(blocks: &PencilBlocks) -> Option<StiffnessBound> {
+/// The bound of A_ff; `None` where it is not definite in doubles.
+pub(crate) fn stiffness_bound(blocks: &PencilBlocks) -> Option<StiffnessBound> {
     let plain_factor = blocks.stiffness.cholesky()?;
     let bound = blocks.stiffness.below_spectrum()?;
     let sigma = short_below(CLAIMED * bound)?;
@@ -279,14 +280,14 @@ fn stiffness_bound(blocks: &PencilBlocks) -> Option<StiffnessBound> {
 }
 
 /// B_ff >= tau I and its evidence.
-struct MassBound {
-    tau: Rational,
+pub(crate) struct MassBound {
+    pub(crate) tau: Rational,
     /// `None` where the block is a non-negative diagonal.
-    factor: Option<Factor>,
+    pub(crate) factor: Option<Factor>,
 }
 
 /// The bound of B_ff, which is `given` and in skyline form `mass`; `None` where it is indefinite.
-fn mass_bound(mass: &Skyline, given: &Sparse) -> Option<MassBound> {
+pub(crate) fn mass_bound(mass: &Skyline, given: &Sparse) -> Option<MassBound> {
     if mass.is_diagonal() {
         let tau = short_below(mass.smallest_diagonal()).unwrap_or_default();
         return Some(MassBound { tau, factor: None });

@@ -4,6 +4,7 @@
 //! the factor L with L L' = S has the same profile. Rounded to integers, L is the certificate's
 //! evidence that S is positive (semi)definite (`check::cover::psd`).
 
+use super::matrix::SquareMatrix;
 use crate::search::complete::rounding::integer;
 use mceip_check::certificate::Factor;
 use mceip_exact::{Sparse, to_f64};
@@ -54,6 +55,20 @@ impl Skyline {
         }
 
         Skyline { first, rows }
+    }
+
+    /// A symmetric matrix given by its rows.
+    pub(crate) fn of_rows(rows: SquareMatrix) -> Skyline {
+        let first = vec![0; rows.len()];
+        let lower = |(i, mut row): (usize, Vec<f64>)| {
+            row.truncate(i + 1);
+            row
+        };
+
+        Skyline {
+            first,
+            rows: rows.into_iter().enumerate().map(lower).collect(),
+        }
     }
 
     fn entry(&self, i: usize, j: usize) -> f64 {
@@ -249,6 +264,13 @@ impl Skyline {
         }
 
         None
+    }
+
+    /// The factor that proves this matrix positive definite; `None` where it is not.
+    pub(crate) fn factor_of_definite(&self) -> Option<Factor> {
+        let slack = self.below_spectrum()?;
+        let factor = self.shifted(-slack).cholesky()?;
+        Some(factor.rounded(slack))
     }
 
     /// A vector to begin inverse iterations with: any without symmetry will do.
