@@ -1,8 +1,8 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
 //! The formats of the files decide what is done. A certificate, of solutions and complete sets, of
-//! absence below a friction, of presence in an interval of friction or of contact states, goes to
-//! the checker, which accepts or rejects it. Somebody's solutions are certified and checked one by
+//! absence below a friction, of presence or of stability in an interval of friction, or of contact
+//! states, goes to the checker, which accepts or rejects it. Somebody's solutions are certified and checked one by
 //! one, or refuted ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly
 //! ([`plain`]).
 
@@ -15,11 +15,13 @@ use crate::say::path::LETTERS;
 use crate::say::{self, number_text, window_text};
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
-    EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate,
+    EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate, STABILITY_FORMAT,
+    StabilityCertificate,
 };
 use mceip_check::{
     Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedEquilibrium, AcceptedPresence,
-    Place, check, check_critical, check_equilibrium, check_presence,
+    AcceptedStability, Place, check, check_critical, check_equilibrium, check_presence,
+    check_stability,
 };
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict, judge};
@@ -39,8 +41,8 @@ pub(super) struct Args {
     /// Problem file (mceip-problem/1), a body under loads (mceip-loads/1), or a plain LCP or MCP
     /// (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1; of a body under loads
-    /// mceip-equilibrium/1), or somebody's solutions (mceip-solutions/1): each of those is
+    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1, mceip-stability/1; of a
+    /// body under loads mceip-equilibrium/1), or somebody's solutions (mceip-solutions/1): each of those is
     /// certified and checked, or refuted. Of a plain problem: its solution file
     /// (mceip-mcp-solution/1).
     certificate: PathBuf,
@@ -95,6 +97,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         refuse_window(args, PRESENCE_FORMAT)?;
         refuse_tolerance(args, PRESENCE_FORMAT)?;
         return presence(args, &problem, &source);
+    }
+
+    if require_format(&source, STABILITY_FORMAT).is_ok() {
+        refuse_window(args, STABILITY_FORMAT)?;
+        refuse_tolerance(args, STABILITY_FORMAT)?;
+        return stability(args, &problem, &source);
     }
 
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
@@ -194,6 +202,30 @@ fn presence(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
             let text = format!(
                 "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0 \
                  ({evidence})\n"
+            );
+            (text, exit::DONE)
+        }
+        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
+    };
+
+    print(&text)?;
+    Ok(code)
+}
+
+/// The verdict on a certificate of stability in an interval of friction.
+fn stability(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
+    let read = StabilityCertificate::from_json(source);
+    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+
+    let (text, code) = match decided(|| check_stability(problem, &certificate)) {
+        Ok(AcceptedStability { from, to }) => {
+            let digest = problem.sha256();
+            // The theorem speaks of mu > 0.
+            let begin = if from.is_zero() { "(" } else { "[" };
+            let [from, to] = [&from, &to].map(number_text);
+            let text = format!(
+                "STABLE for every friction in {begin}{from}, {to}]: motions that begin near the \
+                 equilibrium stay near it (problem {digest})\n"
             );
             (text, exit::DONE)
         }
