@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A second checker of mceip-certificate/1, mceip-critical/1 and mceip-presence/1, written from the pages of spec/ alone (no line of the Rust program was read).
+"""A second checker of mceip-certificate/1, mceip-critical/1, mceip-presence/1 and mceip-stability/1, written from the pages of spec/ alone (no line of
+the Rust program was read).
 
     python3 spec/checker.py PROBLEM CERTIFICATE
 
@@ -2148,6 +2149,125 @@ def check_presence(p, doc):
     return 0, f"ACCEPTED: a solution for every friction in [{start}, {stop}] and some lambda2 >= 0, {len(pieces)} pieces"
 
 
+# ---------------------------------------------------------------- stability on an interval of friction
+
+STABILITY_END = record(exponent=exponent, symmetric=list_of(INTEGERS), bounds=INTEGERS, factor=FACTOR)
+STABILITY = record(**{
+    "format": text_of, "problem_sha256": text_of, "from": Maybe(number), "to": number, "mass_sigma": number, "mass_factor": Maybe(FACTOR),
+    "condensation": Maybe(record(sigma=number, stiffness_factor=FACTOR, right=MATRIX, left_friction=MATRIX, inertia=Maybe(MATRIX))),
+    "lower": STABILITY_END, "upper": STABILITY_END})
+
+
+def read_columns(obj, nf, ns, reason):
+    """The columns of an integer matrix with a row for each free variable, as fractions."""
+    exponent, rows = counter(obj["exponent"]), obj["rows"]
+    demand(exponent <= 4096, "Cover.TooLarge: an exponent")
+    demand(len(rows) == nf and all(len(r) == ns for r in rows), reason)
+    return [[Q(integer(row[j]), 2**exponent) for row in rows] for j in range(ns)]
+
+
+class Motions:
+    """The numbers of the theorem of stability that do not depend on mu (C, 5.21); R, M1, C, c, E by rows of slip particles."""
+
+    def __init__(self, p, parts, obj, sigma, mass_sigma, to):
+        nf, ns = len(p.free), len(p.s)
+        stiffness, mass = parts[0].a, parts[0].b
+        friction, inertia = ([m[i] for i in p.s] for m in (parts[1].a, parts[1].b))
+        g = [[Q(0)] * nf] * ns
+        if obj is not None and obj.get("inertia") is not None:
+            g = read_columns(obj["inertia"], nf, ns, "Length: inertia")
+
+        def less(row, weights, matrix):
+            """row - weights' matrix, of its free rows."""
+            for i, weight in zip(p.free, weights):
+                if weight:
+                    row = plus(row, matrix[i], -weight)
+            return row
+        c = [less(row, weights, stiffness) for row, weights in zip(friction, g)]
+        self.e = [sum(map(abs, less(row, weights, mass).values()), Q(0)) for row, weights in zip(inertia, g)]
+        demand(2 * to * sum(self.e) <= mass_sigma, "Inertia: the mass couples normals of slip particles with what moves")
+        kappa = sum(abs(v) for row in stiffness for v in row.values()) + to * sum(abs(v) for row in c for v in row.values())
+        self.omega = 2 * kappa / mass_sigma
+        self.w, self.rest, self.a2 = Q(0), Q(0), [Q(0)] * ns
+        if obj is None:
+            return
+        k_ff = [{j: v for j, v in stiffness[i].items() if j < nf} for i in p.free]
+
+        def residual(given, column):
+            return [x - sum(v * column[j] for j, v in row.items()) for x, row in zip(given, k_ff)]
+        right, left = (read_columns(obj[name], nf, ns, f"Cover.Length: {name}") for name in ("right", "left_friction"))
+        self.w = sum(abs(x) for column in right for x in column)
+        for j, column in zip(p.s, right):  # K_ff^-1 K_fs itself is longer than `right` by |K_fs - K_ff W| / sigma at most
+            self.w += sum(map(abs, residual([stiffness[i].get(j, Q(0)) for i in p.free], column))) / sigma
+        for i in range(ns):
+            u = [x - y for x, y in zip(left[i], g[i])]
+            given = [c[i].get(j, Q(0)) for j in p.free]
+            l = residual(given, u)
+            self.a2[i] = dot(u, [x + y for x, y in zip(given, l)]) + dot(l, l) / sigma
+        self.rest = 1 + 1 / sigma
+
+
+def stable_at(p, obj, ends, scales, motions, mu, name):
+    """Obligation 7 at an end."""
+    ns, unit = len(p.s), 2**counter(obj["exponent"])
+    demand(counter(obj["exponent"]) <= 4096, "Cover.TooLarge: an exponent")
+    q, b = [[integer(x) for x in row] for row in obj["symmetric"]], [integer(x) for x in obj["bounds"]]
+    demand(len(q) == len(b) == ns and all(len(row) == ns for row in q), f"Length: {name}")
+    demand(all(q[i][j] == q[j][i] for i in range(ns) for j in range(i)), f"NotSymmetric: {name}")
+    demand(all(x >= 0 for x in b), f"Bound: {name}, a negative one")
+    m, r = ends.both[0]
+    per_rate = [mu * e * motions.omega for e in motions.e]
+    for i in range(ns):
+        theta = per_rate[i] * (1 + motions.w)
+        for j in range(ns):
+            demand(Q(q[i][j], unit) <= Q(m[i][j] - r[i][j], ends.unit) / scales[i] - theta, f"NotBelow: {name}, entry ({i}, {j})")
+    for i in range(ns):
+        beyond = Q(b[i], unit) - per_rate[i] * motions.rest
+        demand(beyond >= 0 and beyond**2 >= mu**2 * motions.a2[i], f"Bound: {name}, slip particle {i}")
+    rows = [{j: Q(4 * q[i][j] * unit - b[i] * b[j], unit**2) for j in range(ns)} for i in range(ns)]
+    covered(rows, ns, obj["factor"], True, f"Cover.Hypothesis: {name}, 4 Q - b b'")
+
+
+def check_stability(p, doc):
+    """The equilibrium is stable for every mu in [from, to] but 0."""
+    STABILITY(doc)
+    _, digest, stop, mass_sigma, lower, upper, start, mass_factor, obj = fields(
+        doc, "format problem_sha256 to mass_sigma lower upper", "from mass_factor condensation")
+    start, stop, mass_sigma = Q(0) if start is None else number(start), number(stop), number(mass_sigma)
+    demand(digest == p.digest, f"Digest: the problem's is {p.digest}")  # 1
+    demand(p.system is not None, "NotASystem")  # 2
+    demand(p.unknown == "lambda2", "Unknown: lambda2 was expected")
+    demand(not p.halves, "ZeroReaction")
+    demand(0 <= start < stop, "FrictionRange: from and to")  # 3
+    demand((obj is not None) == bool(p.free), "Cover.Condensation: present exactly if there are free variables")  # 4
+    demand(len(p.s) <= 512, "Cover.TooLarge: more than 512 slip variables")
+    parts, _ = friction_parts(p)
+    weightless = [Part(p, x.a, [{}] * p.n) for x in parts]
+    common = [lcm(1, *(v.denominator for x in weightless for v in x.a[i].values())) for i in range(p.n)]
+    integral = [[(f, {j: int(v * f) for j, v in a.items()}, {}) for f, a in zip(common, x.a)] for x in weightless]
+    sigma, own = None, None
+    if obj is not None:
+        sigma = number(obj["sigma"])
+        own = {"sigma": obj["sigma"], "stiffness_factor": obj["stiffness_factor"], "mass_sigma": "0", "anchors": [
+            {"center": "0", "right": [obj["right"]], "left_friction": [obj["left_friction"]]}]}
+    pencils, _ = critical_pencils(p, weightless, integral, own, start, stop)
+    Budget.of_anchors(pencils)
+    Budget.matrices = 1 << 30
+    anchor = None if obj is None else 0
+    for pencil in pencils:
+        pencil.name(anchor)
+    ends = [pencil.ends(Q(0), Q(0), anchor) for pencil in pencils]
+    demand(mass_sigma > 0, "Cover.Hypothesis: mass_sigma is not positive")  # 5
+    covered([plus(row, {i: -mass_sigma}) for i, row in enumerate(parts[0].b)], p.n, mass_factor, False, "Cover.Hypothesis: mass")
+    motions = Motions(p, parts, obj, sigma, mass_sigma, stop)  # 6
+    bits = [max(x) for x in zip(*(row_bits(rows, 1) for rows in integral))]
+    scales = [Q(common[i], 2**bits[i]) for i in p.s]
+    for end, mu, name in ((lower, start, "lower"), (upper, stop, "upper")):  # 7
+        stable_at(p, end, at_friction(ends, mu), scales, motions, mu, name)
+    bracket = "[" if start > 0 else "("
+    return 0, f"ACCEPTED: stable for every mu in {bracket}{start}, {stop}]"
+
+
 # ---------------------------------------------------------------- plain LCPs and MCPs
 
 def read_mcp(doc):
@@ -2395,6 +2515,8 @@ def check(problem_path, certificate_path):
         return check_critical(p, doc)
     if isinstance(doc, dict) and doc.get("format") == "mceip-presence/1":
         return check_presence(p, doc)
+    if isinstance(doc, dict) and doc.get("format") == "mceip-stability/1":
+        return check_stability(p, doc)
     if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":
         raise Unreadable("format: mceip-certificate/1 was expected")
     CERTIFICATE(doc)
