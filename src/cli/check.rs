@@ -218,14 +218,23 @@ fn stability(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliErro
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
 
     let (text, code) = match decided(|| check_stability(problem, &certificate)) {
-        Ok(AcceptedStability { from, to }) => {
+        Ok(AcceptedStability {
+            from,
+            to,
+            is_of_every_motion,
+        }) => {
             let digest = problem.sha256();
             // The theorem speaks of mu > 0.
             let begin = if from.is_zero() { "(" } else { "[" };
             let [from, to] = [&from, &to].map(number_text);
+            let which = if is_of_every_motion {
+                "motions that begin"
+            } else {
+                "motions that keep to the contact states and begin"
+            };
             let text = format!(
-                "STABLE for every friction in {begin}{from}, {to}]: motions that begin near the \
-                 equilibrium stay near it (problem {digest})\n"
+                "STABLE for every friction in {begin}{from}, {to}]: {which} near the \
+                 equilibrium, in contact, stay near it (problem {digest})\n"
             );
             (text, exit::DONE)
         }

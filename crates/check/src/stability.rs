@@ -11,8 +11,8 @@ use crate::pencil::FrictionParts;
 use crate::reason::{Reason, Rejected};
 use crate::{cover, of_problem};
 use mceip_exact::{Rational, Sparse};
-use mceip_model::{Body, Problem};
-use num_traits::Signed;
+use mceip_model::{Body, ContactState, Problem, System};
+use num_traits::{Signed, Zero};
 
 /// What an accepted certificate has proved: stability for every mu > 0 in [`from`, `to`].
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,6 +21,9 @@ pub struct AcceptedStability {
     pub from: Rational,
     /// Largest friction.
     pub to: Rational,
+    /// Does the mass couple no slip or stick particle with anything? Then the theorem is about every
+    /// motion that begins in contact, else about those that keep to the contact states.
+    pub is_of_every_motion: bool,
 }
 
 /// Checks a certificate of stability on an interval of friction, exactly.
@@ -44,6 +47,9 @@ pub fn check_stability(
     let Body::System(system) = problem.body() else {
         return Err(Reason::NotASystem.into());
     };
+    let is_of_every_motion = system
+        .mass()
+        .is_some_and(|mass| leaves_contacts_alone(system, mass));
     let dofs = system.dofs();
     let massless = FrictionParts::of(system, &Sparse::zeros(dofs, dofs));
     cover::stability::check(&parts, &massless, certificate)?;
@@ -51,5 +57,38 @@ pub fn check_stability(
     Ok(AcceptedStability {
         from: from.clone(),
         to: to.clone(),
+        is_of_every_motion,
     })
+}
+
+/// Does the mass couple the degrees of freedom of each slip and stick particle with nothing, the
+/// tangential one not even with the normal one?
+fn leaves_contacts_alone(system: &System, mass: &Sparse) -> bool {
+    let in_contact = system.particles().iter().filter(|particle| {
+        matches!(
+            particle.state,
+            ContactState::Slip { .. } | ContactState::Stick
+        )
+    });
+
+    for particle in in_contact {
+        let own = [particle.tangential, particle.normal];
+        let rows = own.iter().flat_map(|dof| mass.row(*dof));
+        let mut others = rows.filter(|(j, value)| !own.contains(j) && !value.is_zero());
+        if others.next().is_some() {
+            return false;
+        }
+
+        let mut coupling = Rational::zero(); // t'Mn
+        for (i, t) in particle.tangent() {
+            for (j, n) in particle.into_obstacle() {
+                coupling += &t * n * mass.get(i, j);
+            }
+        }
+        if !coupling.is_zero() {
+            return false;
+        }
+    }
+
+    true
 }

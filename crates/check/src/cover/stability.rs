@@ -287,7 +287,6 @@ impl<'a> FrictionLessFree<'a> {
     ) -> Result<FrictionLessFree<'a>, Reason> {
         let slip = lifted.friction.len();
         let exponent = inertia.map_or(0, |matrix| matrix.exponent);
-        Reason::at_most("exponent", MAX_EXPONENT.into(), exponent.into())?;
         if let Some(matrix) = inertia {
             check_matrix("inertia", matrix, lifted.free, slip)?;
         }
@@ -430,7 +429,7 @@ fn check_matrix(
     rows: usize,
     columns: usize,
 ) -> Result<(), Reason> {
-    Reason::at_most("exponent", MAX_EXPONENT.into(), matrix.exponent.into())?;
+    CoverFault::at_most("exponent", MAX_EXPONENT.into(), matrix.exponent.into())?;
     Reason::length(what, rows, matrix.rows.len())?;
     for row in &matrix.rows {
         Reason::length(what, columns, row.len())?;
@@ -441,7 +440,7 @@ fn check_matrix(
 
 /// Demands that Q is square and b has an entry per slip particle.
 fn check_shape(end: &StabilityEnd, slip: usize) -> Result<(), Reason> {
-    Reason::at_most("exponent", MAX_EXPONENT.into(), end.exponent.into())?;
+    CoverFault::at_most("exponent", MAX_EXPONENT.into(), end.exponent.into())?;
     Reason::length("symmetric", slip, end.symmetric.len())?;
     for row in &end.symmetric {
         Reason::length("symmetric", slip, row.len())?;
