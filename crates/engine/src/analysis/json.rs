@@ -237,6 +237,7 @@ impl Analysis {
         let stability = self.stability.as_ref()?;
         Some(json!({
             "to": stability.to.to_string(),
+            "of_every_motion": stability.is_of_every_motion,
             "evidence": self.evidence_json(&stability.evidence, paths),
         }))
     }

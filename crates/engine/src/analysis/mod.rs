@@ -55,7 +55,8 @@ use conditions::{Necessary, is_all_slip};
 use critical::{BranchStart, KnownOfSystem};
 use divergence::divergence;
 use families::Families;
-use mceip_check::certificate::Certificate;
+use mceip_check::certificate::{Certificate, StabilityCertificate};
+use mceip_check::{AcceptedStability, Proved};
 use mceip_exact::{Rational, to_f64, whole};
 use mceip_model::{ContactState, Problem, System};
 use model::AnalysisModel;
@@ -195,8 +196,12 @@ fn stability(
     proofs: &mut Vec<Proof>,
 ) -> Option<Stability> {
     model.watch.report(&Progress::stage("stability at rest"));
-    let proved = stability::stable_until(model, known.families, known.problem)?;
-    let to = proved.accepted().to.clone();
+    let proved = stability::stable_until(known.families, known.problem, &model.watch)?;
+    let AcceptedStability {
+        to,
+        is_of_every_motion,
+        ..
+    } = proved.accepted().clone();
     let certificate = ProofCertificate::Stability(proved);
     let proof = Proof::new("stable", known.problem.clone(), certificate);
     model.keep(&proof.name, &proof.problem, &proof.certificate);
@@ -204,8 +209,32 @@ fn stability(
 
     Some(Stability {
         to,
+        is_of_every_motion,
         evidence: Evidence::Certificate(proofs.len() - 1),
     })
+}
+
+/// A certificate that the equilibrium is stable for every mu up to one, as large a one as is found;
+/// `None` where there is none. The system needs a mass and particles that slip.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn stable_until(
+    system: &System,
+    watch: &Watch<'_>,
+) -> Result<Option<Proved<StabilityCertificate>>, AnalysisError> {
+    error::require_doubles(system)?;
+    let options = AnalysisOptions::default();
+    let model = AnalysisModel {
+        system,
+        options: &options,
+        earlier: None,
+        watch: *watch,
+    };
+    let problem = model.problem(Some(&whole(1)))?;
+    let families = Families::of(system)?;
+
+    Ok(stability::stable_until(&families, &problem, watch))
 }
 
 /// What every search of a system in which something slips begins with.

@@ -13,6 +13,7 @@ use super::evidence::Evidence;
 use super::flutter::Flutter;
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
+use super::stability::Stability;
 use super::threshold::StaticThreshold;
 use crate::report::{short, six_digits};
 use mceip_check::{OpenRegion, SolutionFamily};
@@ -395,7 +396,7 @@ impl Analysis {
     /// Up to which mu a small disturbance stays small.
     fn say_stability(&self) -> Option<Sentence> {
         let stability = self.stability.as_ref()?;
-        let at_this_mu = if self.is_stable() {
+        let at_this_mu = if self.stable_here().is_some() {
             "so at this one too"
         } else if self.divergence.verdict == Verdict::Present {
             "at this one it is unstable"
@@ -407,18 +408,19 @@ impl Analysis {
             topic: "stability",
             text: format!(
                 "Stability: the equilibrium is STABLE for every mu with 0 < mu <= {}, with this \
-                 contact state: a motion that begins near it, in contact, stays near it; \
+                 contact state: a motion that begins near it, in contact{}, stays near it; \
                  {at_this_mu}.",
-                down(&stability.to)
+                down(&stability.to),
+                stability.proviso()
             ),
             evidence: stability.evidence.clone(),
         })
     }
 
-    /// Is the equilibrium proved to be stable at the mu that was asked for?
-    pub(super) fn is_stable(&self) -> bool {
-        let stability = self.stability.as_ref();
-        self.friction.is_positive() && stability.is_some_and(|found| self.friction <= found.to)
+    /// What proves the equilibrium stable at the mu that was asked for.
+    pub(super) fn stable_here(&self) -> Option<&Stability> {
+        let stability = self.stability.as_ref()?;
+        (self.friction.is_positive() && self.friction <= stability.to).then_some(stability)
     }
 
     fn say_threshold(&self) -> Sentence {

@@ -45,20 +45,24 @@ impl Analysis {
     /// In an engineer's words, the paper's in parentheses.
     fn verdict_at_friction(&self) -> String {
         let mu = exactly(&self.friction);
-        let verdict = match self.divergence.verdict {
-            Verdict::Present => self.instability(),
-            Verdict::Absent if self.is_stable() => {
-                "the equilibrium is stable: a motion that begins near it, in contact, stays near \
-                 it, and none can diverge (divergence of the form (8) is ABSENT)"
+        let verdict = match (self.divergence.verdict, self.stable_here()) {
+            (Verdict::Present, _) => self.instability(),
+            (Verdict::Absent, Some(stability)) => format!(
+                "the equilibrium is stable: a motion that begins near it, in contact{}, stays near \
+                 it, and none can diverge (divergence of the form (8) is ABSENT)",
+                stability.proviso()
+            ),
+            (Verdict::Absent, None) => {
+                "no motion in a fixed direction can grow without oscillation \
+                                (divergence of the form (8) is ABSENT)"
                     .into()
             }
-            Verdict::Absent => "no motion in a fixed direction can grow without oscillation \
-                                (divergence of the form (8) is ABSENT)"
-                .into(),
-            Verdict::Undecided => "it is not decided whether a motion in a fixed direction can \
+            (Verdict::Undecided, _) => {
+                "it is not decided whether a motion in a fixed direction can \
                                    grow without oscillation (divergence of the form (8) is \
                                    UNDECIDED)"
-                .into(),
+                    .into()
+            }
         };
 
         format!("With these contact states held, at mu = {mu} {verdict}.")
@@ -89,7 +93,7 @@ impl Analysis {
     /// Up to which mu stability is proved.
     fn stable_range(&self) -> Option<String> {
         let to = down(&self.stability.as_ref()?.to);
-        Some(format!("It is stable for every mu > 0 up to {to}."))
+        Some(format!("It is stable for every mu above 0 up to {to}."))
     }
 
     fn critical_bounds(&self) -> String {

@@ -24,7 +24,7 @@ mod numbers;
 
 use super::evidence::Evidence;
 use super::families::Families;
-use super::model::AnalysisModel;
+use crate::run::Watch;
 use crate::search::complete::pieces::matrix::SquareMatrix;
 use crate::search::complete::pieces::skyline::Skyline;
 use crate::search::complete::rounding;
@@ -56,15 +56,29 @@ const BITS: i32 = 60;
 pub struct Stability {
     /// The largest mu of which it is proved.
     pub to: Rational,
+    /// Is it said of every motion that begins in contact, or only of those that keep to the contact
+    /// states?
+    pub is_of_every_motion: bool,
     /// The certificate.
     pub evidence: Evidence,
 }
 
+impl Stability {
+    /// What a motion must do beside beginning in contact, behind a comma.
+    pub(super) fn proviso(&self) -> &'static str {
+        if self.is_of_every_motion {
+            ""
+        } else {
+            ", and keeps to the contact states"
+        }
+    }
+}
+
 /// A certificate for as large a mu as is found; `None` where there is none.
 pub(super) fn stable_until(
-    model: &AnalysisModel<'_>,
     families: &Families,
     problem: &Problem,
+    watch: &Watch<'_>,
 ) -> Option<Proved<StabilityCertificate>> {
     if !families.zero.is_empty() {
         return None;
@@ -72,7 +86,7 @@ pub(super) fn stable_until(
 
     let numbers = RestingNumbers::of(&families.own, MOST)?;
     for margin in MARGINS {
-        if model.stopped() {
+        if watch.is_cancelled() {
             return None;
         }
 
@@ -118,7 +132,7 @@ impl StabilitySearch<'_> {
     fn largest_friction(&self) -> Option<Rational> {
         let plain = self.bisect(LEAST, Looked::Itself)?;
         let beyond = WORTHWHILE * plain;
-        let largest = if self.at(beyond, Looked::Below).is_some() {
+        let largest = if beyond < MOST && self.at(beyond, Looked::Below).is_some() {
             self.bisect(beyond, Looked::Below).unwrap_or(plain)
         } else {
             plain
