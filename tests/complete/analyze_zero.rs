@@ -97,7 +97,9 @@ fn assert_proofs(index: u64, analysis: &Analysis) {
                 let accepted = check(&proof.problem, proved.certificate());
                 assert!(accepted.is_ok(), "system {index}: {accepted:?}");
             }
-            ProofCertificate::Presence(_) => panic!("system {index}: zero reaction"),
+            ProofCertificate::Presence(_) | ProofCertificate::Stability(_) => {
+                panic!("system {index}: zero reaction")
+            }
         }
     }
 }

@@ -18,6 +18,7 @@ mod problem_files;
 mod properties;
 mod small;
 mod stability;
+mod stable;
 mod table1;
 mod third_opinion;
 mod way_back;

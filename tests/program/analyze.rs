@@ -11,7 +11,7 @@ use crate::common::{
 };
 use crate::fold::{enumerate_at, fold_body};
 use crate::program::Folder;
-use mceip_check::{check, check_critical, check_presence};
+use mceip_check::{check, check_critical, check_presence, check_stability};
 use mceip_engine::analysis::conditions::{Necessary, condensed};
 use mceip_engine::analysis::{
     Analysis, AnalysisOptions, Evidence, Mode, Obstacle, ProofCertificate, Verdict, analyse,
@@ -52,6 +52,9 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
             }
             ProofCertificate::Presence(presence) => {
                 check_presence(&proof.problem, presence.certificate()).unwrap();
+            }
+            ProofCertificate::Stability(stability) => {
+                check_stability(&proof.problem, stability.certificate()).unwrap();
             }
         }
     }
@@ -505,8 +508,41 @@ fn flutter_is_said_of_steady_sliding_where_divergence_is_absent() {
     let hertz = pairs[0]["hertz"].as_f64().unwrap();
     assert!((hertz - 0.5 / (2.0 * PI)).abs() < 1e-9, "{hertz}");
 
-    assert!(!words.contains("is stable"), "{words}");
-    assert!(!words.contains("is STABLE"), "{words}");
+    contains_all(&words, &["at this one stability is not proved"]);
+    assert!(!analysis.summary().contains("is stable:"), "{words}");
+}
+
+/// T is symmetric in all states of Table 1, so the equilibrium is stable below the threshold, and
+/// unstable from there on. With S = (-1, 1) there is none, and the search ends at mu = 64.
+#[test]
+fn table_1_is_stable_below_its_thresholds() {
+    for (signs, end) in [
+        ((1, 1), 59f64.sqrt() / 4.0),
+        ((-1, -1), 59f64.sqrt() / 4.0),
+        ((1, -1), 17.0 / 6.0),
+        ((-1, 1), 64.0),
+    ] {
+        let system = two_particles(&two_particles_with(signs, whole(1))).unwrap();
+        let analysis = answer(&system, &whole(1), 0);
+
+        let stability = analysis.stability.as_ref().unwrap();
+        let to = to_f64(&stability.to);
+        assert!(0.999 * end < to && to <= end, "{signs:?}: {to}");
+        assert!(stability.is_of_every_motion);
+        assert!(analysis.summary().contains("the equilibrium is stable:"));
+
+        // The same evidence for a larger mu.
+        let Evidence::Certificate(proof) = stability.evidence else {
+            panic!("a certificate")
+        };
+        let ProofCertificate::Stability(proved) = &analysis.proofs[proof].certificate else {
+            panic!("of stability")
+        };
+        let mut beyond = proved.certificate().clone();
+        beyond.to = from_f64(1.01 * to).unwrap();
+        let refused = check_stability(&analysis.proofs[proof].problem, &beyond);
+        assert_eq!(refused.is_err(), signs != (-1, 1), "{signs:?}");
+    }
 }
 
 /// Two particles with K* = [[2, mu], [-mu, 2]] and M* = I: lambda^2 = -2 +- i mu, complex for every
@@ -529,6 +565,10 @@ fn a_stable_equilibrium_is_not_said_to_flutter() {
     assert_eq!(pairs.len(), 1);
     let lambda2_real = pairs[0].growth_rate.powi(2) - pairs[0].frequency.powi(2);
     assert!((lambda2_real + 2.0).abs() < 1e-9, "{pairs:?}");
+
+    // T = K*, and min(T, T') is definite for mu < 2.
+    let to = to_f64(&analysis.stability.as_ref().unwrap().to);
+    assert!(1.99 < to && to < 2.0, "{to}");
 
     let sentences = analysis.sentences();
     let said = sentences.iter().find(|s| s.topic == "flutter").unwrap();

@@ -6,6 +6,7 @@
 //! slip in the wrong direction fails.
 
 use super::*;
+use mceip_engine::analysis::stable_until;
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, complete};
@@ -348,6 +349,38 @@ fn random_systems_move_as_their_certificates_say() {
     assert!(20 * met.resolved >= 19 * met.runs, "{met:?}");
     assert!(met.overtaken <= 2, "{met:?}");
     assert!(met.oblique.min(met.stick).min(met.coupled) >= 10, "{met:?}");
+}
+
+/// At the largest mu of which stability is proved, after impulses in any direction.
+#[test]
+fn nothing_grows_where_stability_is_proved() {
+    let mut runs = 0;
+    let mut resolved = 0;
+    for instance in mechanical(200, 21).unwrap() {
+        let system = system_of(&instance);
+        if system.slip_particles().is_empty() {
+            continue;
+        }
+        let Some(proved) = stable_until(system, &Watch::nobody()).unwrap() else {
+            continue;
+        };
+
+        let states: Vec<ContactState> = system.particles().iter().map(|p| p.state).collect();
+        let friction = Some(proved.accepted().to.clone());
+        let at_its_end = system.with_states(&states, friction).unwrap();
+        let equations = Equations::new(&at_its_end).unwrap();
+        let unit = equations.longest_period().unwrap();
+
+        let run = AfterImpulse::new(&equations, 0, plan(20.0 * unit, 1000)).unwrap();
+        runs += 1;
+        if run.is_resolved() {
+            resolved += 1;
+            assert_eq!(run.fine.class, MotionClass::NoGrowth, "{}", instance.label);
+        }
+    }
+
+    assert!(runs >= 150, "{runs}");
+    assert!(10 * resolved >= 9 * runs, "{resolved} of {runs}");
 }
 
 fn compare(instance: &Instance, met: &mut Met) {
