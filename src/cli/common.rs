@@ -367,6 +367,13 @@ pub(super) fn positive(option: &'static str, given: &str) -> Result<Rational, Cl
     positive_number(given).ok_or_else(|| CliError::option(option, expected, given))
 }
 
+/// A coefficient of friction in the text of an option, > 0.
+pub(super) fn friction_of(option: &'static str, given: &str) -> Result<Rational, CliError> {
+    let expected = "a coefficient of friction > 0 (without friction: a very small one, as \
+                    0.000001; held contact states, `mceip analyze --friction 0`)";
+    positive_number(given).ok_or_else(|| CliError::option(option, expected, given))
+}
+
 /// The number that a text spells, if it is positive.
 pub(super) fn positive_number(text: &str) -> Option<Rational> {
     parse(text).ok().filter(Rational::is_positive)

@@ -8,7 +8,7 @@
 //! (`Plausibility`); a problem file keeps the warnings, so that `analyze` repeats them, until they
 //! are accepted.
 
-use super::common::{CliError, exit, positive, print, text};
+use super::common::{CliError, exit, friction_of, print, text};
 use super::output::Output;
 use crate::say::counted;
 use mceip_exact::{Rational, Sparse, to_f64};
@@ -88,7 +88,7 @@ pub(super) struct Args {
 /// Reads the model and writes the problem, or the body under loads.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let friction = args.friction.as_deref();
-    let friction = friction.map(|mu| positive("friction", mu)).transpose()?;
+    let friction = friction.map(|mu| friction_of("friction", mu)).transpose()?;
     let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.contacts];
     inputs.extend(args.mass.as_deref());
     inputs.extend(args.loads.as_deref());

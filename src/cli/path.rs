@@ -9,7 +9,7 @@ mod own;
 mod pages;
 mod states;
 
-use super::common::{CliError, exit, positive, print, text};
+use super::common::{CliError, exit, friction_of, print, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use super::pictures::{self, PictureArgs, PictureFolders};
@@ -148,7 +148,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let input: &[&Path] = &[&args.file];
     let loads = read_loads_of(&text("the loads", &args.file)?, &args.file)?;
-    let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
+    let at_mu = args.at_mu.iter().map(|mu| friction_of("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
     let report = Output::prepare_if("report", args.report.as_deref(), input)?;
@@ -172,7 +172,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     let mut question = loads.path().in_doubles(args.doubles).cancel(job.cancel());
     match args.mu.as_deref() {
-        Some(mu) => question = question.friction(positive("mu", mu)?),
+        Some(mu) => question = question.friction(friction_of("mu", mu)?),
         None if loads.body().system().friction().is_some() => {}
         None => {
             let expected = "a coefficient of friction here or in the file";

@@ -6,7 +6,9 @@
 
 mod report;
 
-use super::common::{CliError, exit, load, positive, print, require_count, require_threads};
+use super::common::{
+    CliError, exit, friction_of, load, positive, print, require_count, require_threads,
+};
 use super::job::Job;
 use super::output::Output;
 use crate::{Solution, SolutionSet};
@@ -121,7 +123,7 @@ fn system_of(args: &Args, problem: &Problem) -> Result<System, CliError> {
         return Ok(system.clone());
     };
 
-    let friction = positive("friction", given)?;
+    let friction = friction_of("friction", given)?;
     let without_reaction = |particle: &Particle| Particle {
         reaction: None,
         ..particle.clone()

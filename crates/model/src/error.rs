@@ -172,7 +172,7 @@ pub enum ModelError {
         second: usize,
     },
     /// Something needed for this unknown is missing.
-    #[error("{equation}: expected {what} for unknown {unknown}, got none")]
+    #[error("{equation}: expected {what} for unknown {unknown}, got none{}", remedy_for(what))]
     Missing {
         /// Equation id.
         equation: &'static str,
@@ -182,7 +182,11 @@ pub enum ModelError {
         unknown: &'static str,
     },
     /// Slip particles need friction.
-    #[error("E7: expected friction > 0 with slip particles (particle {particle}), got {friction}")]
+    #[error(
+        "E7: expected friction > 0 with slip particles (particle {particle}), got {friction}: \
+         without friction nothing is in impending slip; write the mu of the contact, or ask \
+         `mceip analyze --friction 0`, which a theorem answers"
+    )]
     FrictionNotPositive {
         /// The first slip particle.
         particle: usize,
@@ -351,6 +355,18 @@ fn shortened(v: &Rational) -> String {
         text
     } else {
         format!("{}... ({} characters)", &text[..MOST], text.len())
+    }
+}
+
+/// What to do about a missing field.
+fn remedy_for(what: &str) -> &'static str {
+    match what {
+        "mass" => {
+            ": add \"mass\" beside \"stiffness\" (`mceip convert --mass FILE`); without it, \
+             \"unknown\": \"mu\" asks for the mu of lambda = 0"
+        }
+        "friction" => ": add \"friction\", the mu of the contact",
+        _ => "",
     }
 }
 

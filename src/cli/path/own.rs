@@ -1,6 +1,6 @@
 //! `mceip path --own-critical`: its options, its certificates in a folder, its pictures.
 
-use crate::cli::common::{CliError, positive};
+use crate::cli::common::{CliError, friction_of, positive};
 use crate::cli::output::Folder;
 use crate::cli::pictures::Named;
 use crate::picture::{
@@ -30,8 +30,8 @@ pub(super) fn grid_of(
         let expected = "two coefficients of friction, MIN,MAX";
         return Err(CliError::option("own-critical", expected, &given));
     };
-    let least = positive("own-critical", least)?;
-    let greatest = positive("own-critical", greatest)?;
+    let least = friction_of("own-critical", least)?;
+    let greatest = friction_of("own-critical", greatest)?;
     let relative = positive("width", width)?;
 
     let grid =

@@ -23,7 +23,11 @@ pub enum AnalysisError {
     )]
     NotASystem,
     /// Divergence needs inertia.
-    #[error("E3: expected mass, got none (analyze needs K, M and mu)")]
+    #[error(
+        "E3: expected mass, got none (analyze needs K, M and mu): add \"mass\" beside \
+         \"stiffness\" (`mceip convert --mass FILE`); the mu of lambda = 0 alone needs no mass (`mceip complete` \
+         with \"unknown\": \"mu\", `mceip path --complete`)"
+    )]
     NoMass,
     /// Divergence is asked for at a mu.
     #[error("E2: expected friction in the file or by --friction, got none")]

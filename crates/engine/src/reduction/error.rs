@@ -21,7 +21,10 @@ pub enum CondensationError {
     #[error(transparent)]
     Model(#[from] ModelError),
     /// MCEIP-lambda2 of a system without mass.
-    #[error("E12: expected a mass matrix for unknown lambda2, got none")]
+    #[error(
+        "E12: expected a mass matrix for unknown lambda2, got none: add \"mass\" beside \
+         \"stiffness\" (`mceip convert --mass FILE`)"
+    )]
     NoMass,
     /// A friction that is negative, infinite or NaN.
     #[error("E15: expected a finite friction mu >= 0, got {got}")]
