@@ -308,7 +308,11 @@ pub(crate) fn warnings(
 ) -> Vec<String> {
     let plausibility = Plausibility::new(&PlausibilityInput {
         system,
+        // K may be that of a body without the dofs that are held, whose rows say nothing.
+        rows_alone: &[],
+        places: None,
         reactions: &table.reactions,
+        asks_for_reactions: false,
         displacements: None,
         coordinates,
         dof_names,

@@ -22,7 +22,7 @@ use mceip_paper::calculix::{read_dofs, read_triangle};
 use mceip_paper::{
     Asymmetry, ContactTable, Frame, NodeTable, Plausibility, PlausibilityInput, angle_in_degrees,
     asymmetry, make_frames_exact, read_candidates, read_contacts, read_nodes, read_steps,
-    symmetric_part,
+    rows_alone, symmetric_part,
 };
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -169,6 +169,7 @@ fn write_states(
         None => None,
     };
 
+    let alone = rows_alone(&stiffness);
     let system = System::new(stiffness, mass, Some(friction), contacts.particles)?;
     let coordinates = match &args.coordinates {
         Some(path) => {
@@ -181,7 +182,10 @@ fn write_states(
     let dofs = system.dofs();
     let plausibility = Plausibility::new(&PlausibilityInput {
         system: &system,
+        rows_alone: &alone,
+        places: None,
         reactions: &contacts.reactions,
+        asks_for_reactions: true,
         displacements: displacements.as_deref(),
         coordinates: coordinates.as_ref(),
         dof_names: indices.names.as_ref(),
@@ -227,6 +231,7 @@ fn write_body(
         last.is_endless = args.endless;
     }
 
+    let alone = rows_alone(&stiffness);
     let body = LoadedBody::new(LoadedParts {
         stiffness,
         mass,
@@ -250,7 +255,10 @@ fn write_body(
     let dof_names = indices.names.map(|names| not_held(names, body.places()));
     let plausibility = Plausibility::new(&PlausibilityInput {
         system: body.system(),
+        rows_alone: &alone,
+        places: Some(body.places()),
         reactions: &vec![None; body.gaps().len()],
+        asks_for_reactions: false,
         displacements: None,
         coordinates: coordinates.as_ref(),
         dof_names: dof_names.as_ref(),

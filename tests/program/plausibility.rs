@@ -276,6 +276,9 @@ fn beam(element: &[[f64; 4]; 4]) -> String {
     matrix_market(&DoubleMatrix { order: 8, entries }, 17)
 }
 
+/// What is warned of where the table gives no reactions.
+const NO_REACTION: &str = "4 more: no reaction is given (reaction_tangential, reaction_normal)";
+
 /// One fault in each model.
 #[test]
 fn each_fault_is_named() {
@@ -309,12 +312,10 @@ fn each_fault_is_named() {
             "u.txt",
             &["differ from K u by 2e-1 of the largest"],
         ),
-        // Displacements show a wrong state only beside reactions.
-        (
-            ["K.mtx", "M.mtx", "bare.csv"],
-            "u.txt",
-            &["not compared with K u"],
-        ),
+        (["K.mtx", "K.mtx", "contacts.csv"], "", &["K and M are one"]),
+        // Without reactions nothing shows a wrong state, with displacements or without.
+        (["K.mtx", "M.mtx", "bare.csv"], "u.txt", &[NO_REACTION]),
+        (["K.mtx", "M.mtx", "bare.csv"], "", &[NO_REACTION]),
     ] {
         warns_of(&model.convert(files, displacements), warnings);
     }
@@ -404,8 +405,9 @@ fn directions_are_held_against_the_places_of_the_nodes() {
         model.folder.write("directed.csv", &table);
 
         let text = model.convert_with_places(["K.mtx", "M.mtx", "directed.csv"], "");
-        let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
-        warns_of(&text, &expected);
+        let mut all = vec![NO_REACTION];
+        all.extend(expected.iter().map(String::as_str));
+        warns_of(&text, &all);
     }
 
     let one_wrong = directed(&model, "angle,normal_direction", |k| match k {
@@ -414,7 +416,8 @@ fn directions_are_held_against_the_places_of_the_nodes() {
     });
     model.folder.write("directed.csv", &one_wrong);
     let text = model.convert_with_places(["K.mtx", "M.mtx", "directed.csv"], "");
-    warns_only_of(&text, "particle n3: the tangent is turned by 30.0 degrees");
+    let turned = "particle n3: the tangent is turned by 30.0 degrees";
+    warns_of(&text, &[NO_REACTION, turned]);
 }
 
 /// A table with names and these columns, without reactions.
@@ -446,10 +449,8 @@ fn degrees_of_freedom_of_two_nodes_are_named() {
     model.folder.write("crossed.csv", &crossed);
 
     let text = model.convert_with_places(["K.mtx", "M.mtx", "crossed.csv"], "");
-    warns_only_of(
-        &text,
-        "particles n0, n1: the tangential and the normal dof move two",
-    );
+    let crossed = "particles n0, n1: the tangential and the normal dof move two";
+    warns_of(&text, &[NO_REACTION, crossed]);
 }
 
 /// A contact that is left out of the table bears a force beside the others. A load far from them is
@@ -474,7 +475,8 @@ fn a_force_beside_the_contacts_is_named() {
 
     let text = model.convert_with_places(files, "u.txt");
     let place = format!("{normal} (node {node} at x = ");
-    warns_only_of(&text, &place);
+    let gap = format!("between particles 3 and 4, near x = 40.000, y = 0, where node {node} is");
+    warns_of(&text, &[&place, &gap]);
 
     let far = model.block.stiffness.order - 1;
     let loaded = model.displacements_under(&[(far, -3.0)]);

@@ -6,14 +6,18 @@
 //! | diagonals, sum of M | largest and smallest entries, e'Me | |
 //! | lowest frequencies | K_ff v = omega^2 M_ff v, the contacts held | |
 //! | signs | K cancels along e = (1, ..., 1), row by row, M adds up | K and M exchanged |
+//! | equality | K is not M | one file given twice |
+//! | rows alone | an element couples each row of K with others | supports left in K |
 //! | balance of rows | \|K e\| is zero but near supports | entries of few digits |
 //! | units | the lowest frequency is between 1e-2 and 1e6 | units that do not fit |
 //! | friction | mu is at most 5 | per cent, an angle |
 //! | masses of a node | one diagonal entry of M for both its dofs | numbers from 1 |
+//! | reactions | one for each slip particle | signs of slip that nothing shows to be right |
 //! | reactions | K u at the contacts, where u is given | numbers from 1, another step or sign |
 //! | other forces | K u at dofs of no particle | a contact that is missing |
 //! | cones | \|r_T\| over mu \|r_N\| | |
 //! | directions | `directions`, where the places of the nodes are given | wrong angles, normals |
+//! | spacing | `spacing`, where these are given | a contact node that is missing |
 //!
 //! All in doubles, all for a reader: nothing here changes the problem or refuses it.
 #![allow(clippy::float_arithmetic)]
@@ -23,9 +27,10 @@ use crate::directions::WrongDirections;
 use crate::doubles::DoubleMatrix;
 use crate::frequencies::lowest_frequencies;
 use crate::lines::shown;
+use crate::spacing::WideGap;
 use crate::tolerance::{
-    BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH, USUAL_FREQUENCIES,
-    USUAL_FRICTION,
+    BALANCED_ROWS, CONE_SLACK, EQUAL_MASSES, NEAR_SUPPORTS, REACTION_MISMATCH, ROW_ALONE,
+    USUAL_FREQUENCIES, USUAL_FRICTION,
 };
 use mceip_exact::{Sparse, from_f64, to_f64, upper_decimal};
 use mceip_model::{ContactState, Coordinates, Particle, System};
@@ -35,8 +40,16 @@ use std::collections::HashMap;
 pub struct PlausibilityInput<'a> {
     /// The body, with M and mu.
     pub system: &'a System,
+    /// The rows of the K that was given which stand alone ([`rows_alone`]).
+    pub rows_alone: &'a [usize],
+    /// The degree of freedom of the system that each given one is, none for those that are held;
+    /// without the list they are the same.
+    pub places: Option<&'a [Option<usize>]>,
     /// For each particle, the reaction that the table of contacts gives.
     pub reactions: &'a [Option<TableReaction>],
+    /// Whether slip particles without a reaction are named: a table of a finite-element program
+    /// can give one for each.
+    pub asks_for_reactions: bool,
     /// The displacements of the equilibrium, one for each degree of freedom.
     pub displacements: Option<&'a [f64]>,
     /// Where the nodes are.
@@ -66,7 +79,12 @@ impl Plausibility {
         let stiffness = in_doubles(input.system.stiffness());
         found.figure("K", range_of_diagonal(&stiffness));
         found.look_at_rows(&stiffness);
+        found.look_at_supports(input);
 
+        if input.system.mass() == Some(input.system.stiffness()) {
+            let same = "K and M are one matrix, as if one file were given for both";
+            found.warnings.push(same.into());
+        }
         if let Some(mass) = input.system.mass() {
             let mass = in_doubles(mass);
             let sum = with_five_digits(sum_of_entries(&mass));
@@ -88,15 +106,17 @@ impl Plausibility {
             found.look_at_friction(to_f64(friction));
         }
         found.look_at_cones(input);
+        let are_given = found.look_at_missing_reactions(input);
         if let Some(displacements) = input.displacements {
             let forces = stiffness.times(displacements);
-            let are_from_one = found.look_at_reactions(input, &forces);
+            let are_from_one = found.look_at_reactions(input, &forces, are_given);
             if !are_from_one {
                 found.look_at_other_forces(input, &stiffness, &forces);
             }
         }
         if let Some(coordinates) = input.coordinates {
             found.look_at_directions(input, coordinates);
+            found.look_at_spacing(input, coordinates);
         }
         found
     }
@@ -125,6 +145,43 @@ impl Plausibility {
                  digits (write it with 17), or the nodes rest on soft springs"
             ));
         }
+    }
+
+    /// A support that a program leaves in K is a row with 1, or with a very stiff spring, on the
+    /// diagonal and nothing of that size beside it. The degree of freedom then has a mass and
+    /// vibrates in the answers, or its spring hides the digits of the others.
+    fn look_at_supports(&mut self, input: &PlausibilityInput<'_>) {
+        let mut in_table = vec![false; input.system.dofs()];
+        for particle in input.system.particles() {
+            in_table[particle.tangential] = true;
+            in_table[particle.normal] = true;
+        }
+
+        let mut words = Vec::new();
+        let mut count = 0;
+        for &given in input.rows_alone {
+            let of_system = input.places.map_or(Some(given), |places| places[given]);
+            let Some(dof) = of_system.filter(|dof| !in_table[*dof]) else {
+                continue;
+            };
+            count += 1;
+            if count <= LISTED {
+                let place = whereabouts(input, dof);
+                let entry = with_five_digits(to_f64(&input.system.stiffness().get(dof, dof)));
+                words.push(format!("{entry} at dof {given}{place}"));
+            }
+        }
+        if count == 0 {
+            return;
+        }
+
+        let list = words.join(", ");
+        let more = and_more(count);
+        self.warnings.push(format!(
+            "K has on its diagonal {list}{more} and nothing of that size beside it: prescribed \
+             degrees of freedom seem to be left in K, as unit rows or penalty springs (write K and \
+             M without their rows and columns)"
+        ));
     }
 
     /// Along a translation the entries of K cancel, row by row, and those of M add up. True if the
@@ -255,15 +312,43 @@ impl Plausibility {
         }
     }
 
+    /// The direction of impending slip is against the tangential reaction; without one nothing
+    /// shows a wrong sign. True if nothing is said of it.
+    fn look_at_missing_reactions(&mut self, input: &PlausibilityInput<'_>) -> bool {
+        let mut without = Vec::new();
+        let particles = input.system.particles().iter().zip(input.reactions);
+        for (index, (particle, reaction)) in particles.enumerate() {
+            let is_given = reaction.is_some() || particle.reaction.is_some();
+            if matches!(particle.state, ContactState::Slip { .. }) && !is_given {
+                without.push(index);
+            }
+        }
+        if without.is_empty() || !input.asks_for_reactions {
+            return true;
+        }
+
+        let particles = listed(input.system, &without);
+        self.warnings.push(format!(
+            "{particles}: no reaction is given (reaction_tangential, reaction_normal), so that \
+             nothing shows a wrong direction of impending slip, a wrong state or a wrong angle"
+        ));
+        false
+    }
+
     /// (1) at rest: K u is the reaction at a contact without other loads. True if the table seems
-    /// to count from 1.
-    fn look_at_reactions(&mut self, input: &PlausibilityInput<'_>, forces: &[f64]) -> bool {
+    /// to count from 1. `are_given` says whether no warning of missing reactions stands already.
+    fn look_at_reactions(
+        &mut self,
+        input: &PlausibilityInput<'_>,
+        forces: &[f64],
+        are_given: bool,
+    ) -> bool {
         let Some(as_given) = mismatch(input, forces, 0) else {
-            self.warnings.push(
-                "the reactions are not compared with K u, since no CSV table gives one other than \
-                 zero: without them nothing shows a wrong state, angle or direction of slip"
-                    .into(),
-            );
+            let silent = "the reactions are not compared with K u, since no CSV table gives one \
+                          other than zero: without them nothing shows a wrong state or angle";
+            if are_given {
+                self.warnings.push(silent.into());
+            }
             return false;
         };
         let text = format!("differ by {as_given:.0e} of the largest");
@@ -364,6 +449,57 @@ impl Plausibility {
             ));
         }
     }
+
+    /// The contact nodes of a mesh are about evenly spaced.
+    fn look_at_spacing(&mut self, input: &PlausibilityInput<'_>, coordinates: &Coordinates) {
+        let gaps = WideGap::all_of(input.system, coordinates);
+        let mut words = Vec::new();
+        for gap in gaps.iter().take(LISTED) {
+            let [x, y] = gap.middle.map(with_five_digits);
+            let between = gap.particles.map(|index| {
+                let particle = &input.system.particles()[index];
+                shown(&particle.name_or(index))
+            });
+            let [from, to] = between;
+            let node = match gap.node {
+                Some(node) => format!(", where node {node} is"),
+                None => String::new(),
+            };
+            words.push(format!(
+                "between particles {from} and {to}, near x = {x}, y = {y}{node}"
+            ));
+        }
+        if gaps.is_empty() {
+            return;
+        }
+
+        let more = and_more(gaps.len());
+        self.warnings.push(format!(
+            "the contact nodes are about twice as far apart as beside it {}{more}: a line of the \
+             table of contacts may be missing",
+            words.join("; ")
+        ));
+    }
+}
+
+/// The rows of K whose diagonal entry is far larger than all others of the row together: no element
+/// couples the degree of freedom with another one. Supports that were left in K are such rows.
+pub fn rows_alone(stiffness: &Sparse) -> Vec<usize> {
+    let is_alone = |row: &usize| {
+        let mut others = 0.0;
+        let mut diagonal = 0.0;
+        for (column, value) in stiffness.row(*row) {
+            let size = to_f64(value).abs();
+            if column == row {
+                diagonal = size;
+            } else {
+                others += size;
+            }
+        }
+        diagonal > 0.0 && ROW_ALONE * others <= diagonal
+    };
+
+    (0..stiffness.rows()).filter(is_alone).collect()
 }
 
 /// How many particles or forces a warning lists.

@@ -46,6 +46,20 @@ pub(crate) const BALANCED_ROWS: f64 = 1e-7;
 /// against the support, which is of the size of its other entries.
 pub(crate) const NEAR_SUPPORTS: f64 = 1e-2;
 
+/// How many times the other entries of its row together the diagonal entry of K has to be for the
+/// row to stand alone. Unit: none. Basis: a row of an element has 1 to 10 in either unit of length,
+/// rotations included; a penalty has 1e6 or more, and a unit row no other entry.
+pub(crate) const ROW_ALONE: f64 = 1e4;
+
+/// How many times as far apart as beside it two contact nodes are where one is missing between
+/// them. Unit: none. Basis: 2 on an even mesh; meshes are graded by less than 1.5 from one element
+/// to the next, and two parts of a contact lie farther apart.
+pub(crate) const ONE_MISSING: [f64; 2] = [1.6, 2.6];
+
+/// How far from the middle between two contact nodes a node lies that is meant by it, relative to
+/// their distance. Unit: none. Basis: on an even mesh it is in the middle.
+pub(crate) const IN_THE_MIDDLE: f64 = 0.2;
+
 /// How far the masses of the two degrees of freedom of a node may be from each other, relative.
 /// Unit: none. Basis: they are equal but for rounding; nodes of different volume differ by more.
 pub(crate) const EQUAL_MASSES: f64 = 1e-9;

@@ -43,6 +43,7 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
     let layout = reader.size_line(line, size, banner)?;
 
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
+    let mut seen = BTreeSet::new();
     let mut got = 0;
 
     for (line, text) in lines {
@@ -51,6 +52,9 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
             return Err(reader.complain(line, expected, text));
         }
         let (i, j, value) = reader.entry(line, text, &layout, got)?;
+        if !seen.insert((i, j)) {
+            return Err(reader.complain(line, "each entry once", text));
+        }
         if layout.banner.symmetric && i != j {
             entries.push((j, i, value.clone()));
         }
@@ -63,8 +67,6 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
         let found = format!("{got} of {}", layout.count);
         return Err(reader.complain(end, expected, &found));
     }
-
-    refuse_twice(what, &entries)?;
 
     Ok(Sparse::from_entries(layout.rows, layout.cols, entries))
 }
@@ -295,20 +297,6 @@ impl Reader {
     }
 }
 
-fn refuse_twice(
-    what: &'static str,
-    entries: &[(usize, usize, Rational)],
-) -> Result<(), ModelError> {
-    let mut seen = BTreeSet::new();
-    for (i, j, _) in entries {
-        if !seen.insert((i, j)) {
-            return Err(ModelError::IndexTwice { what, index: *i });
-        }
-    }
-
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -466,7 +454,7 @@ mod tests {
         ));
         assert!(matches!(
             read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n1 1 1\n")),
-            Err(ModelError::IndexTwice { .. })
+            Err(ModelError::MatrixMarket { line: 4, .. })
         ));
     }
 }
