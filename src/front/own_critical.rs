@@ -26,7 +26,7 @@ use mceip_engine::analysis::{
 };
 use mceip_engine::run::{Progress, Watch};
 use mceip_exact::{Integer, Rational, rational, whole};
-use mceip_model::{LoadedBody, ModelError, System};
+use mceip_model::{ContactState, LoadedBody, ModelError, System};
 use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd, Stretch};
 use num_traits::{One, Signed};
 use serde_json::Value;
@@ -162,8 +162,9 @@ pub struct OwnCritical {
     path_friction: Rational,
     /// What the loads lead to at each mu, ascending.
     pub points: Vec<FrictionPoint>,
-    /// The analysis of one state, held: of that in which divergence is found at the critical mu,
-    /// else of that in which the path ends at the last mu without divergence.
+    /// The analysis of one state, held: of that in which divergence is found at the critical mu; of
+    /// that at the last mu without divergence, where the path ends at the critical one; and where
+    /// no mu is critical, of the state with the smallest critical friction of those that decide.
     pub frozen: Option<Analysis>,
 }
 
@@ -363,19 +364,39 @@ impl OwnCritical {
         }
     }
 
-    /// The point whose deciding state is analysed with its contact states held.
-    fn to_be_held(&self) -> Option<&FrictionPoint> {
-        let absent = |point: &&FrictionPoint| point.answer() == FrictionAnswer::ABSENT;
+    /// The points whose deciding states are analysed with their contact states held, each set of
+    /// states once: that of the bracket, or where there is none all of them.
+    fn to_be_held(&self) -> Vec<&FrictionPoint> {
         match self.bracket() {
             Bracket::Between(_, critical) | Bracket::AtMost(critical)
                 if critical.deciding_diverges() =>
             {
-                Some(critical)
+                vec![critical]
             }
-            Bracket::Between(absent, _) => Some(absent),
-            Bracket::AtMost(_) => None,
-            Bracket::Undecided | Bracket::None => self.points.iter().rfind(absent),
+            Bracket::Between(absent, _) => vec![absent],
+            Bracket::AtMost(_) => Vec::new(),
+            Bracket::Undecided | Bracket::None => self.with_different_states(),
         }
+    }
+
+    /// The points with a deciding equilibrium, one for each set of contact states: that of the
+    /// largest mu.
+    fn with_different_states(&self) -> Vec<&FrictionPoint> {
+        let mut seen: Vec<&[ContactState]> = Vec::new();
+        let mut points = Vec::new();
+        for point in self.points.iter().rev() {
+            let is_shown = matches!(point.answer(), FrictionAnswer::Equilibrium(_));
+            let Some(examined) = point.deciding().filter(|_| is_shown) else {
+                continue;
+            };
+            let states = examined.equilibrium.contact_states();
+            if !seen.contains(&states) {
+                seen.push(states);
+                points.push(point);
+            }
+        }
+
+        points
     }
 
     /// Is nothing found because an answer is missing?
@@ -532,13 +553,7 @@ impl<'a> FindOwnCritical<'a> {
             points,
             frozen: None,
         };
-        if let Some(point) = own.to_be_held()
-            && let Some(examined) = point.deciding().filter(|e| e.divergence.is_ok())
-            && !watch.is_cancelled()
-        {
-            let frozen = self.frozen(&examined.equilibrium, point.friction(), &watch)?;
-            own.frozen = Some(frozen);
-        }
+        own.frozen = self.smallest_frozen(&own, &watch)?;
 
         Ok(own)
     }
@@ -652,6 +667,31 @@ impl<'a> FindOwnCritical<'a> {
         self.body().with_states(states, Some(mu.clone()))
     }
 
+    /// Of the states to be held, the analysis of that with the smallest critical friction; `None`
+    /// without such states, and where the work is cancelled before all are compared.
+    fn smallest_frozen(
+        &self,
+        own: &OwnCritical,
+        watch: &Watch<'_>,
+    ) -> Result<Option<Analysis>, Error> {
+        let mut smallest: Option<Analysis> = None;
+        for point in own.to_be_held() {
+            let Some(examined) = point.deciding().filter(|e| e.divergence.is_ok()) else {
+                continue;
+            };
+            if watch.is_cancelled() {
+                return Ok(None);
+            }
+
+            let frozen = self.frozen(&examined.equilibrium, point.friction(), watch)?;
+            if smallest.as_ref().is_none_or(|s| is_below(&frozen, s)) {
+                smallest = Some(frozen);
+            }
+        }
+
+        Ok(smallest)
+    }
+
     /// The analysis of a state at this mu, its contact states held.
     fn frozen(
         &self,
@@ -667,6 +707,15 @@ impl<'a> FindOwnCritical<'a> {
         };
 
         Ok(analyse(None, &system, mu, &options, &watch.quiet())?)
+    }
+}
+
+/// Is the critical friction of one state below that of another? By the mu below which divergence is
+/// proved absent; a state without any is below none.
+fn is_below(one: &Analysis, other: &Analysis) -> bool {
+    match (&one.critical.absent_below, &other.critical.absent_below) {
+        (Some(one), Some(other)) => one < other,
+        (one, other) => one.is_some() && other.is_none(),
     }
 }
 

@@ -88,7 +88,7 @@ pub(crate) fn rows_of(own: &OwnCritical) -> Vec<Vec<String>> {
 /// The bracket, then the frozen critical friction.
 pub(crate) fn headlines(own: &OwnCritical) -> Vec<String> {
     let mut all = vec![headline(own, &own.loads().step_names())];
-    all.extend(own.frozen.as_ref().map(frozen_text));
+    all.extend(own.frozen.as_ref().map(|frozen| frozen_text(own, frozen)));
     all
 }
 
@@ -214,14 +214,21 @@ fn uncertified_text(points: &[&FrictionPoint]) -> &'static str {
 }
 
 /// The frozen critical friction, and why it is another number.
-fn frozen_text(frozen: &Analysis) -> String {
+fn frozen_text(own: &OwnCritical, frozen: &Analysis) -> String {
     let mu = number_text(&frozen.friction);
     let bracket = bracket_text(frozen);
+    let is_smallest = matches!(own.bracket(), Bracket::Undecided | Bracket::None)
+        && frozen.critical.absent_below.is_some();
+    let smallest = if is_smallest {
+        ", the smallest over the contact states in the table"
+    } else {
+        ""
+    };
 
     format!(
         "FROZEN CRITICAL FRICTION: {bracket}, with the contact states held that the table shows \
-         at mu = {mu}. That is a statement about these states at every mu; but with another \
-         friction the same loads may lead to other states, of which the own one tells."
+         at mu = {mu}{smallest}. That is a statement about these states at every mu; but with \
+         another friction the same loads may lead to other states, of which the own one tells."
     )
 }
 
