@@ -16,7 +16,9 @@ use super::pictures::{self, PictureArgs};
 use super::question::load_system;
 use crate::Analyze;
 use crate::say::{number_text, warnings_text};
-use mceip_engine::analysis::{Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES};
+use mceip_engine::analysis::{
+    Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, Verdict,
+};
 use mceip_engine::run::Kept;
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
@@ -274,11 +276,15 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
         return "The theorem and its proof: spec/zero-reaction.md, Z.2.".into();
     }
 
-    let bound = match analysis.critical.evidence {
-        Evidence::Certificate(proof) => proof,
-        _ => 0, // divergence at mu
+    // Of a growing motion its own certificate, else that of the critical mu.
+    let [at_mu, below] = [&analysis.divergence.evidence, &analysis.critical.evidence];
+    let proof = match (analysis.divergence.verdict, at_mu, below) {
+        (Verdict::Present, Evidence::Certificate(proof), _) => *proof,
+        (_, _, Evidence::Certificate(proof)) => *proof,
+        (_, Evidence::Certificate(proof), _) => *proof,
+        _ => 0,
     };
-    match paths.get(bound) {
+    match paths.get(proof) {
         Some(certificate) => {
             let problem = certificate.replace(".certificate.json", ".problem.json");
             let [problem, certificate] =

@@ -991,6 +991,25 @@ fn certificates_are_written_and_accepted() {
     );
 }
 
+/// What to check next is the certificate of the growing motion where there is one, else that of
+/// absence below the critical mu.
+#[test]
+fn the_next_step_checks_what_the_answer_says_first() {
+    let folder = Folder::new();
+    let problem = example("two-particles");
+    for (options, proof) in [("", "lambda2"), (" --friction 1", "absence")] {
+        let proofs = folder.path(&format!("proofs-{proof}"));
+        let command = format!("analyze {problem} --samples 0 --certificates {proofs}{options}");
+        let text = exits(0, &command);
+
+        let [problem, certificate] =
+            ["problem", "certificate"].map(|kind| format!("{proofs}/{proof}.{kind}.json"));
+        let next = format!("Next: `mceip check {problem} {certificate}`.");
+        assert!(text.contains(&next), "{next} in\n{text}");
+        exits(0, &format!("check {problem} {certificate}"));
+    }
+}
+
 /// One page with every sentence and mode, or none at all.
 #[test]
 fn the_report_says_what_the_text_says() {
