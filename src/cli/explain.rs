@@ -1,10 +1,12 @@
 //! `mceip explain [TERM]`: what a word of the output means.
 //!
 //! A TERM is a term of the glossary, the id of an equation (`E16`, `16` or `(16)`) or of a
-//! departure from the paper (`X9`), or a reason for which `check` rejects a certificate
-//! (`NotIsolated`). The texts are those of the book in `spec/`, compiled into the program.
+//! departure from the paper (`X9`), a reason for which `check` rejects a certificate
+//! (`NotIsolated`), or a flag of the conformance pack (`one_by_one`). The texts are those of the
+//! book in `spec/`, compiled into the program, and the notes of [`Flag`].
 
 use super::common::{CliError, exit, print};
+use mceip_testkit::conform::Flag;
 
 /// The pages with a table of names and meanings.
 const TABLES: [Page; 2] = [
@@ -26,13 +28,16 @@ const CHAPTERS: [Page; 4] = [
 /// The page with a section for each departure from the paper.
 const ERRATA: Page = Page::new("spec/errata.md", include_str!("../../spec/errata.md"));
 
+/// The page with the table of flags, which the program has as [`Flag`].
+const FLAGS: &str = "spec/conform.md";
+
 /// Names shown for a term that is not known.
 const SUGGESTIONS: usize = 5;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// A term of the output, an equation ("(16)", "E16"), a departure ("X9") or a reason of
-    /// rejection ("NotIsolated"); without one, all names
+    /// A term of the output, an equation ("(16)", "E16"), a departure ("X9"), a reason of
+    /// rejection ("NotIsolated") or a flag of `conform`; without one, all names
     #[arg(allow_hyphen_values = true)]
     term: Vec<String>,
 }
@@ -84,7 +89,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 impl Entry {
     /// Is `term` this name, or one of several that stand in it between commas?
     ///
-    /// The prefix `Cover.` of a reason may be left out, and a plural may stand for the name.
+    /// The prefix `Cover.` of a reason may be left out, and a plural may stand for the name or the
+    /// name for a plural.
     fn has_name(&self, term: &str) -> bool {
         let wanted = normal_form(term);
         let name = normal_form(&self.name);
@@ -93,23 +99,32 @@ impl Entry {
         }
 
         let singular = wanted.strip_suffix('s');
-        name.split(", ")
-            .any(|part| part == wanted || Some(part) == singular)
+        name.split(", ").any(|part| {
+            let of_plural = part.strip_suffix('s').filter(|part| part.len() > 1);
+            part == wanted || Some(part) == singular || of_plural == Some(&wanted)
+        })
     }
 }
 
-/// Lower case, Greek letters and powers in ASCII; an equation's number becomes its id.
+/// Lower case, Greek letters and powers in ASCII, blanks for underscores; an equation's number
+/// becomes its id, with or without the word before it.
 fn normal_form(name: &str) -> String {
     let name = name.trim().to_lowercase();
     let name = name.replace('λ', "lambda").replace('μ', "mu");
-    let name = name.replace('²', "2").replace('^', "");
+    let name = name.replace('²', "2").replace('^', "").replace('_', " ");
 
-    let number = name.trim_start_matches('(').trim_end_matches(')');
+    let mut words = EQUATION_WORDS.iter();
+    let number = words.find_map(|word| name.strip_prefix(word));
+    let number = number.unwrap_or(&name).trim();
+    let number = number.trim_start_matches('(').trim_end_matches(')');
     if !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()) {
         return format!("e{number}");
     }
     name
 }
+
+/// What an equation may be called.
+const EQUATION_WORDS: [&str; 3] = ["condition ", "equation ", "eq. "];
 
 fn entries() -> Vec<Entry> {
     let mut list = Vec::new();
@@ -120,6 +135,13 @@ fn entries() -> Vec<Entry> {
         list.extend(equations(page));
     }
     list.extend(departures(&ERRATA));
+    for flag in Flag::ALL {
+        list.push(Entry {
+            name: flag.word().into(),
+            meaning: format!("  flag of a case: {}", flag.note()),
+            path: FLAGS,
+        });
+    }
     list
 }
 
@@ -252,12 +274,12 @@ fn suggestions(entries: &[Entry], term: &str) -> String {
         let name = normal_form(&entry.name);
         name.contains(&wanted) || name.starts_with(&beginning)
     };
-    let near: Vec<&str> = entries
-        .iter()
-        .filter(is_near)
-        .map(|e| e.name.as_str())
-        .take(SUGGESTIONS)
-        .collect();
+    let mut near: Vec<&str> = Vec::new();
+    for entry in entries.iter().filter(is_near) {
+        if !near.contains(&entry.name.as_str()) && near.len() < SUGGESTIONS {
+            near.push(&entry.name);
+        }
+    }
 
     if near.is_empty() {
         return "mceip explain lists the names".to_string();
