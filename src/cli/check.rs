@@ -21,7 +21,7 @@ use mceip_check::certificate::{
 use mceip_check::{
     Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedEquilibrium, AcceptedPresence,
     AcceptedStability, Place, check, check_critical, check_equilibrium, check_presence,
-    check_stability,
+    check_stability, with_short_numbers,
 };
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict, judge};
@@ -314,7 +314,8 @@ fn say_accepted(
     {
         code = exit::REJECTED;
         let [expected, got] = [demanded, window].map(window_text);
-        out += &format!("REJECTED: window: expected one that covers {expected}, got {got}\n");
+        let why = format!("window: expected one that covers {expected}, got {got}");
+        out += &format!("REJECTED: {}\n", with_short_numbers(&why));
     }
 
     print(&out)?;

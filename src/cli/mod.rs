@@ -29,6 +29,7 @@ mod wrapped;
 
 use clap::{Parser, Subcommand};
 use common::{CliError, complain, look_at_stdout};
+use mceip_check::with_short_numbers;
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
@@ -157,7 +158,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(code) => ExitCode::from(code),
         Err(e) => {
-            complain(&e.to_string());
+            complain(&with_short_numbers(&e.to_string()));
             ExitCode::from(CliError::EXIT)
         }
     }

@@ -55,7 +55,7 @@ pub use critical::{AcceptedAbsence, audit_critical, check_critical};
 pub use equilibrium::{AcceptedEquilibrium, EquilibriumPencil, check_equilibrium};
 pub use presence::{AcceptedPresence, check_presence};
 pub use proved::{NotAccepted, Provable, Proved};
-pub use reason::{Reason, Rejected};
+pub use reason::{Reason, Rejected, with_short_numbers};
 pub use stability::{AcceptedStability, check_stability};
 
 use crate::certificate::{Certificate, Claim};

@@ -103,7 +103,7 @@ impl Reason {
 }
 
 /// The text with `12345678901234567890...(300 digits)` for each number of more than 60 digits.
-fn with_short_numbers(text: &str) -> String {
+pub fn with_short_numbers(text: &str) -> String {
     const LONGEST: usize = 60;
     const SHOWN: usize = 20;
 

@@ -172,7 +172,10 @@ pub enum ModelError {
         second: usize,
     },
     /// Something needed for this unknown is missing.
-    #[error("{equation}: expected {what} for unknown {unknown}, got none{}", remedy_for(what))]
+    #[error(
+        "{equation}: expected {what} for unknown {unknown}, got none{}",
+        remedy_for(what)
+    )]
     Missing {
         /// Equation id.
         equation: &'static str,
@@ -273,7 +276,7 @@ pub enum ModelError {
         problem: String,
     },
     /// The `format` field is missing or names another version.
-    #[error("expected format {expected:?}, got {got}{}", reader_of(got))]
+    #[error("expected format {expected:?}, got {got}{}", hint_of(expected, got))]
     Format {
         /// The version this program reads.
         expected: &'static str,
@@ -370,13 +373,107 @@ fn remedy_for(what: &str) -> &'static str {
     }
 }
 
-/// Which command reads a file of another format; `got` is what its field says, in quotes.
-fn reader_of(got: &str) -> &'static str {
-    match got.trim_matches('"') {
-        "mceip-problem/1" => ": `mceip analyze`, `complete` and `solve` read problems",
-        "mceip-loads/1" => ": `mceip path` reads bodies under loads",
-        "mceip-certificate/1" => ": `mceip check PROBLEM CERTIFICATE` reads it beside its problem",
-        "mceip-equilibrium/1" => ": `mceip check LOADS CERTIFICATE` reads it beside its loads",
-        _ => "",
+const BESIDE_PROBLEM: &str = "`mceip check PROBLEM CERTIFICATE` reads it beside its problem";
+
+/// The formats that commands read, and which command does.
+const FORMATS: [(&str, &str); 9] = [
+    (
+        "mceip-problem/1",
+        "`mceip analyze`, `complete` and `solve` read problems",
+    ),
+    ("mceip-loads/1", "`mceip path` reads bodies under loads"),
+    ("mceip-certificate/1", BESIDE_PROBLEM),
+    ("mceip-critical/1", BESIDE_PROBLEM),
+    ("mceip-presence/1", BESIDE_PROBLEM),
+    (
+        "mceip-equilibrium/1",
+        "`mceip check LOADS CERTIFICATE` reads it beside its loads",
+    ),
+    (
+        "mceip-solutions/1",
+        "`mceip check PROBLEM REPORT` reads it beside its problem",
+    ),
+    ("mceip-mcp/1", "`mceip solve` reads plain LCP and MCP"),
+    (
+        "mceip-mcp-solution/1",
+        "`mceip check PROBLEM SOLUTION` reads it beside its plain problem",
+    ),
+];
+
+/// Which command reads a file of another format, or which known format a misspelt one is nearest
+/// to; `got` is what the field says, in quotes.
+fn hint_of(expected: &str, got: &str) -> String {
+    let got = got.trim_matches('"');
+    if let Some((_, reader)) = FORMATS.iter().find(|(format, _)| *format == got) {
+        return format!(": {reader}");
+    }
+
+    let apart = |format: &str| {
+        let short = format.trim_start_matches("mceip-");
+        changes(format, got).min(changes(short, got))
+    };
+    let nearest = FORMATS.iter().map(|(format, _)| (apart(format), *format));
+    match nearest.min() {
+        Some((apart, format)) if apart <= MISSPELT && format != expected => {
+            format!("; the nearest format that is known is {format:?}")
+        }
+        _ => String::new(),
+    }
+}
+
+/// Letters by which a misspelt format differs from the one meant, at most.
+const MISSPELT: usize = 3;
+
+/// The least number of letters that are added, left out or exchanged to get from one text to the
+/// other: row by row of the table of all beginnings (Wagner and Fischer, J. ACM 21, 1974).
+fn changes(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, letter) in from.chars().enumerate() {
+        let mut next = vec![i + 1];
+        for (j, other) in to.iter().enumerate() {
+            let exchanged = row[j] + usize::from(letter != *other);
+            let added_or_left_out = row[j + 1].min(next[j]) + 1;
+            next.push(exchanged.min(added_or_left_out));
+        }
+        row = next;
+    }
+
+    row[to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_format_has_a_nearest_one() {
+        for (got, nearest) in [
+            ("mceip-solution/1", Some("mceip-solutions/1")),
+            ("solutions/1", Some("mceip-solutions/1")),
+            ("mceip-criticl/1", Some("mceip-critical/1")),
+            ("mceip-anything/1", None),
+            ("no format field", None),
+            ("mceip-certificate/2", None), // another version of what is expected
+        ] {
+            let hint = hint_of("mceip-certificate/1", &format!("\"{got}\""));
+            match nearest {
+                Some(nearest) => assert!(hint.contains(nearest), "{got}: {hint}"),
+                None => assert_eq!(hint, "", "{got}"),
+            }
+        }
+    }
+
+    #[test]
+    fn changes_are_counted() {
+        for (from, to, count) in [
+            ("", "", 0),
+            ("a", "", 1),
+            ("abc", "acb", 2),
+            ("kitten", "sitting", 3),
+        ] {
+            assert_eq!(changes(from, to), count);
+            assert_eq!(changes(to, from), count);
+        }
     }
 }

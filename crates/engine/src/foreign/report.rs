@@ -72,12 +72,15 @@ pub enum BadPoint {
         got: usize,
     },
     /// Neither x nor, for a system, v.
-    #[error("solutions[{solution}]: expected {expected}, got neither")]
+    #[error(
+        "solutions[{solution}]: x is missing: expected {expected} (see spec/formats.md for their \
+         order)"
+    )]
     NoVector {
         /// Index in the report.
         solution: usize,
         /// What would do.
-        expected: &'static str,
+        expected: String,
     },
     /// A number beyond the range of doubles that have all their digits.
     #[error(
@@ -301,17 +304,19 @@ fn given_x(
         return Ok(GivenX { x, off: None });
     }
 
+    let order = reduced.pencil.order();
+    let missing = |expected| BadPoint::NoVector {
+        solution: index,
+        expected,
+    };
     let Body::System(system) = problem.body() else {
-        return Err(BadPoint::NoVector {
-            solution: index,
-            expected: "x",
-        });
+        return Err(missing(format!("x with {order} components")));
     };
     let Some(v) = &raw.v else {
-        return Err(BadPoint::NoVector {
-            solution: index,
-            expected: "x or v",
-        });
+        let dofs = system.dofs();
+        return Err(missing(format!(
+            "x with {order} components, or v with {dofs}"
+        )));
     };
     require_length(index, "v", system.dofs(), v.len())?;
     let projected = project(&reduced.variables, &rationals(v));

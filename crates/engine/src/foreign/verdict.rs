@@ -13,6 +13,7 @@ use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
 use crate::certify::{Certifier, certify};
 use crate::multistart::{exact_value, support};
 use mceip_check::certificate::{Claim, EnclosedSolution};
+use mceip_check::with_short_numbers;
 use mceip_exact::{Algebraic, Interval, Poly};
 use mceip_exact::{enclosing_decimals, parse, to_decimal, upper_decimal};
 use mceip_model::{Problem, Reduced};
@@ -65,7 +66,7 @@ pub enum Refutation {
     #[error("E12: expected x != 0, got the zero vector")]
     ZeroX,
     /// The value lies outside the window, by more than rounding.
-    #[error("value {value} lies outside the window {window}")]
+    #[error("value {} lies outside the window {window}", plain_or_power(*value))]
     OutsideWindow {
         /// The value reported.
         value: f64,
@@ -199,7 +200,12 @@ fn without_noise(candidate: &Candidate, tolerance: f64) -> Candidate {
 impl ForeignVerdict {
     /// One line for people; `given` is the value as reported.
     pub fn line(&self, problem: &Problem, given: f64) -> String {
+        with_short_numbers(&self.full_line(problem, given))
+    }
+
+    fn full_line(&self, problem: &Problem, given: f64) -> String {
         let word = problem.unknown().word();
+        let value = plain_or_power(given);
         match self {
             ForeignVerdict::Accepted(proved) => {
                 let exists = existing(problem, &proved.claim);
@@ -208,13 +214,25 @@ impl ForeignVerdict {
                 format!("ACCEPTED: {exists}; proved; its value agrees to {value}, x to {x}")
             }
             ForeignVerdict::Inaccurate { proved, tolerance } => {
-                inaccurate_text(problem, given, proved, *tolerance)
+                inaccurate_text(problem, &value, proved, *tolerance)
             }
-            ForeignVerdict::Rejected(why) => format!("REJECTED: {word} = {given}: {why}"),
+            ForeignVerdict::Rejected(why) => format!("REJECTED: {word} = {value}: {why}"),
             ForeignVerdict::Undecided { reason } => {
-                format!("UNDECIDED: {word} = {given}: {reason}")
+                format!("UNDECIDED: {word} = {value}: {reason}")
             }
         }
+    }
+}
+
+/// The shortest decimal of a double; where that has many zeros, with a power of ten.
+fn plain_or_power(value: f64) -> String {
+    const LONGEST: usize = 30;
+
+    let plain = value.to_string();
+    if plain.len() > LONGEST {
+        format!("{value:e}")
+    } else {
+        plain
     }
 }
 
@@ -229,7 +247,7 @@ fn existing(problem: &Problem, claim: &Claim) -> String {
 
 /// The verdict on a report that differs too much from the proven solution: both values, the proven
 /// x, the worst component.
-fn inaccurate_text(problem: &Problem, given: f64, proved: &Confirmed, tolerance: f64) -> String {
+fn inaccurate_text(problem: &Problem, given: &str, proved: &Confirmed, tolerance: f64) -> String {
     let word = problem.unknown().word();
     let agreement = &proved.agreement;
     let exists = existing(problem, &proved.claim);
