@@ -5,6 +5,7 @@
 //! `mceip_path`. Each stretch between two events gives contact states: on request as a problem
 //! file, and with what is proved of them ([`states`]), as pictures and as a report ([`pages`]).
 
+mod bodies;
 mod own;
 mod pages;
 mod states;

@@ -29,6 +29,17 @@ pub struct BodyDrawing<'a> {
     pub particles: &'a [Particle],
     /// A mode; without one the states of the equilibrium are drawn.
     pub mode: Option<BodyMode<'a>>,
+    /// What an equilibrium under load does to it; in files of VTK alone.
+    pub load: Option<BodyUnderLoad<'a>>,
+}
+
+/// A body in an equilibrium under load.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyUnderLoad<'a> {
+    /// Over all degrees of freedom.
+    pub displacement: &'a [f64],
+    /// (r_T, r_N) of each particle.
+    pub reactions: &'a [(f64, f64)],
 }
 
 /// A mode of a body.
@@ -221,11 +232,16 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
 }
 
 impl BodyMode<'_> {
-    /// v of a degree of freedom; 0 where there is none, or where v is not finite.
+    /// v of a degree of freedom.
     fn component(&self, dof: Option<usize>) -> f64 {
-        let given = dof.and_then(|dof| self.v.get(dof)).copied();
-        given.filter(|v| v.is_finite()).unwrap_or(0.0)
+        component(self.v, dof)
     }
+}
+
+/// What a vector has at a degree of freedom; 0 where there is none, or no finite number.
+pub(super) fn component(vector: &[f64], dof: Option<usize>) -> f64 {
+    let given = dof.and_then(|dof| vector.get(dof)).copied();
+    given.filter(|v| v.is_finite()).unwrap_or(0.0)
 }
 
 impl BodyDrawing<'_> {
@@ -374,7 +390,7 @@ impl BodyDrawing<'_> {
     }
 
     /// The components along x and y of a direction at a node.
-    fn along_axes(&self, direction: &Direction, node: usize) -> (f64, f64) {
+    pub(super) fn along_axes(&self, direction: &Direction, node: usize) -> (f64, f64) {
         let [along_x, along_y] = self.coordinates.nodes()[node].dofs;
         let mut x = 0.0;
         let mut y = 0.0;

@@ -31,7 +31,7 @@ mod table1;
 mod threshold;
 mod vtu;
 
-pub use body::{BodyDrawing, BodyMode, body_picture};
+pub use body::{BodyDrawing, BodyMode, BodyUnderLoad, body_picture};
 pub use branch::{Branches, ChartPoint, branch_picture};
 pub use cost::{CostSeries, cost_picture};
 pub use drawing::Picture;

@@ -1,11 +1,12 @@
 //! A body and a mode as a file of VTK's unstructured grids (VTU, in text), which ParaView opens.
 //!
 //! Points are the nodes, cells the edges; where the body has no edges each node is a cell. Each
-//! point has its contact state and, of a mode, its displacement v and whether its particle slips.
+//! point has its contact state; of a mode its displacement v and whether its particle slips; under
+//! load its displacement and the reaction of its particle.
 //! The file is a tree of [`Element`]s like a picture; it rests on nothing but the format's
 //! description (VTK User's Guide, "XML file formats").
 
-use super::body::{BodyDrawing, BodyMode};
+use super::body::{BodyDrawing, BodyMode, BodyUnderLoad, component};
 use super::markup::Element;
 use mceip_exact::to_f64;
 use mceip_model::ContactState;
@@ -15,11 +16,15 @@ use std::fmt::Display;
 const VERTEX: usize = 1;
 const LINE: usize = 3;
 
-/// The file of a body: point data `contact` and, with a mode, `mode` and `slips`.
+/// The file of a body: point data `contact`; with a mode, `mode` and `slips`; under load,
+/// `displacement`, `held`, `reaction` and `normal_reaction`.
 ///
 /// `contact` is 0 where a node belongs to no particle, else 1 out of contact, 2 stick, 3 impending
 /// slip, 4 in contact with zero reaction. `mode` is v, in the length of the coordinates, up to a
-/// factor; `slips` is 1 where the particle slips in the mode.
+/// factor; `slips` is 1 where the particle slips in the mode. The points lie where the body is at
+/// rest; `displacement` is 0 where a degree of freedom is held, even by a step that moves it, and
+/// `held` is 1 at such nodes. `reaction` is the force on the body
+/// along x and y at nodes of particles, `normal_reaction` its part -r_N >= 0 that presses.
 pub fn body_vtu(body: &BodyDrawing<'_>) -> String {
     let nodes = body.coordinates.nodes();
     let mut places = Vec::with_capacity(nodes.len());
@@ -89,12 +94,47 @@ fn point_data(body: &BodyDrawing<'_>) -> Element {
     }
 
     let data = Element::new("PointData").child(array("contact", "Int32", &contact));
-    match &body.mode {
+    let data = match &body.mode {
         None => data,
         Some(mode) => data
             .child(vectors("mode", &displacements(body, mode)))
             .child(array("slips", "Int32", &slips)),
+    };
+    match &body.load {
+        None => data,
+        Some(load) => with_load(data, body, load),
     }
+}
+
+/// With the displacements and the reactions under load.
+fn with_load(data: Element, body: &BodyDrawing<'_>, load: &BodyUnderLoad<'_>) -> Element {
+    let mut displacements = Vec::new();
+    let mut held = Vec::new();
+    for node in body.coordinates.nodes() {
+        let [x, y] = node.dofs.map(|dof| component(load.displacement, dof));
+        displacements.push((x, y));
+        held.push(i32::from(node.dofs.contains(&None)));
+    }
+
+    let nodes = displacements.len();
+    let mut reactions = vec![(0.0, 0.0); nodes];
+    let mut pressing = vec![String::from("0"); nodes];
+    for (particle, (r_t, r_n)) in body.particles.iter().zip(load.reactions) {
+        let Some(node) = body.coordinates.node_of(particle.tangential) else {
+            continue;
+        };
+        let tangent = body.along_axes(&particle.tangent(), node);
+        let normal = body.along_axes(&particle.into_obstacle(), node);
+        let x = r_t * tangent.0 + r_n * normal.0;
+        let y = r_t * tangent.1 + r_n * normal.1;
+        reactions[node] = (x, y);
+        pressing[node] = format!("{:e}", 0.0 - r_n);
+    }
+
+    data.child(vectors("displacement", &displacements))
+        .child(array("held", "Int32", &held))
+        .child(vectors("reaction", &reactions))
+        .child(array("normal_reaction", "Float64", &pressing))
 }
 
 fn displacements(body: &BodyDrawing<'_>, mode: &BodyMode<'_>) -> Vec<(f64, f64)> {

@@ -420,3 +420,83 @@ fn a_range_that_makes_no_sense_or_a_body_without_mass_is_refused() {
     let file = folder.write("massless.json", &without_mass.to_string());
     refused(&format!("path {file} --own-critical 1,2"), &["mass"]);
 }
+
+/// The file of `path --vtk` with this point data.
+fn point_data(path: &str, name: &str) -> Vec<f64> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let (_, array) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
+    let (_, array) = array.split_once('>').unwrap();
+    let (numbers, _) = array.split_once('<').unwrap();
+    let numbers = numbers.split_whitespace();
+    numbers.map(|number| number.parse().unwrap()).collect()
+}
+
+/// The body at rest, and with displacements and reactions at the end of each step.
+#[test]
+fn the_body_under_load_is_written_for_paraview() {
+    let folder = Folder::new();
+    let vtk = folder.path("vtk");
+    let file = example("loads");
+
+    exits(0, &format!("path {file} --vtk {vtk}"));
+    let json = exits_with_json(0, &format!("path {file} --json"));
+
+    let written = names(&vtk);
+    for name in ["body.vtu", "step-01.vtu", "step-02.vtu"] {
+        assert!(written.contains(name), "{name} in {written:?}");
+    }
+    assert!(!written.contains("step-03.vtu"), "{written:?}");
+
+    let at = |name: &str, array: &str| point_data(&format!("{vtk}/{name}"), array);
+    assert_eq!(at("body.vtu", "contact"), [2.0, 2.0, 1.0, 0.0]);
+    assert_eq!(at("step-01.vtu", "held"), [0.0, 0.0, 0.0, 1.0]);
+
+    // Every obstacle is below: the reactions at the end of a step are those of its last stretch.
+    for (name, last) in [("step-01.vtu", 1), ("step-02.vtu", 7)] {
+        let stop = &json["intervals"][last]["stop"];
+        let reactions = stop["reactions_T_N"].as_array().unwrap();
+        let pressing = at(name, "normal_reaction");
+        let along = at(name, "reaction");
+        let displacement = at(name, "displacement");
+        for (node, reaction) in reactions.iter().enumerate() {
+            let [r_t, r_n] = [0_usize, 1].map(|k| reaction[k].as_f64().unwrap());
+            assert_eq!(pressing[node], 0.0 - r_n, "{name}, node {node}");
+            assert_eq!(along[3 * node], r_t, "{name}, node {node}");
+            assert_eq!(along[3 * node + 1], 0.0 - r_n, "{name}, node {node}");
+
+            let gap = if node == 2 { 0.05 } else { 0.0 };
+            let down = -displacement[3 * node + 1];
+            if r_n < 0.0 {
+                assert!((down - gap).abs() < 1e-14, "{name}, node {node}: {down}");
+            } else {
+                assert!(down < gap, "{name}, node {node}: {down}");
+            }
+        }
+    }
+}
+
+/// The body in the equilibrium that decides, and a file without coordinates is refused.
+#[test]
+fn the_body_that_decides_on_the_own_critical_friction_is_written() {
+    let folder = Folder::new();
+    let vtk = folder.path("vtk");
+    let mut loads = read_json(&example("own-critical"));
+    let plain = folder.write("plain.json", &loads.to_string());
+    loads["coordinates"] = json!({ "nodes": [[0, 1, 0, 0], [2, 3, 1, 0]] });
+    let placed = folder.write("placed.json", &loads.to_string());
+    let own = "--own-critical 1.1,1.2 --grid 1 --width 0.1";
+
+    refused(
+        &format!("path {plain} {own} --vtk {vtk}"),
+        &["--vtk", "expected a file with coordinates"],
+    );
+    exits(0, &format!("path {placed} {own} --vtk {vtk}"));
+
+    let file = format!("{vtk}/own-critical-body.vtu");
+    assert_eq!(point_data(&file, "contact"), [3.0, 3.0], "both slip at 1.2");
+    assert!(
+        point_data(&file, "normal_reaction")
+            .iter()
+            .all(|r| *r > 0.0)
+    );
+}

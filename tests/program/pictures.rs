@@ -9,9 +9,9 @@
 use crate::common::{exit_code, exits, exits_with_json, read, refused};
 use crate::program::Folder;
 use mceip::picture::{
-    BodyDrawing, BodyMode, Branches, ChartPoint, CostSeries, Mark, PathDrawing, Picture, Presence,
-    PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture, body_vtu,
-    branch_picture, cost_picture, path_picture, presence_picture, table1_picture,
+    BodyDrawing, BodyMode, BodyUnderLoad, Branches, ChartPoint, CostSeries, Mark, PathDrawing,
+    Picture, Presence, PresenceChart, PresenceRange, Threshold, ThresholdColumn, body_picture,
+    body_vtu, branch_picture, cost_picture, path_picture, presence_picture, table1_picture,
     threshold_picture,
 };
 use mceip_exact::to_f64;
@@ -173,6 +173,7 @@ fn a_mesh_is_drawn_deformed_with_the_mark_of_every_candidate() {
                     v: &v,
                     slipping: &[1, 3, 4],
                 }),
+                load: None,
             },
         )
     };
@@ -223,6 +224,7 @@ fn a_body_has_its_nodes_states_and_arrows() {
         coordinates: problem.coordinates.as_ref().unwrap(),
         particles: system.particles(),
         mode: None,
+        load: None,
     };
 
     let text = sound(&body_picture("body", &drawing));
@@ -308,6 +310,7 @@ fn a_body_has_its_nodes_states_and_arrows() {
             coordinates: problem.coordinates.as_ref().unwrap(),
             particles: system.particles(),
             mode: None,
+            load: None,
         };
         let text = sound(&body_picture("body", &elsewhere));
         assert!(!text.contains("NaN") && !text.contains("inf"), "{place}");
@@ -326,6 +329,7 @@ fn a_body_is_a_vtu_file() {
             v: &v,
             slipping: &[0],
         }),
+        load: None,
     };
 
     let text = body_vtu(&drawing);
@@ -349,6 +353,25 @@ fn a_body_is_a_vtu_file() {
     drawing.mode = None;
     let text = body_vtu(&drawing);
     assert!(text.contains("\"contact\"") && !text.contains("\"mode\""));
+    assert!(!text.contains("\"displacement\"") && !text.contains("\"reaction\""));
+
+    // The tangent of the first particle is (4/5, 3/5), that of the second one (1, 0).
+    drawing.load = Some(BodyUnderLoad {
+        displacement: &[0.25, 0.5, f64::INFINITY, 0.0, 1.0],
+        reactions: &[(5.0, -10.0), (0.0, 0.0)],
+    });
+    let text = body_vtu(&drawing);
+    let tree = Document::parse(&text).unwrap();
+    let array = |name: &str| {
+        let mut arrays = tree.descendants().filter(|n| n.has_tag_name("DataArray"));
+        let found = arrays.find(|n| n.attribute("Name") == Some(name));
+        found.unwrap().text().unwrap().to_string()
+    };
+    assert_eq!(array("displacement"), "2.5e-1 5e-1 0 0e0 0e0 0 1e0 0e0 0");
+    assert_eq!(array("held"), "0 0 1");
+    assert_eq!(array("reaction"), "1e1 -5e0 0 0e0 0e0 0 0e0 0e0 0");
+    assert_eq!(array("normal_reaction"), "1e1 0e0 0");
+    assert_eq!(array("places"), "0e0 0e0 0 2e0 0e0 0 0e0 0e0 0", "at rest");
 }
 
 fn body_on_a_wedge() -> Problem {
@@ -737,13 +760,15 @@ fn a_report_is_one_page_that_needs_nothing_else() {
         modes += list(&state["lambda2"][0], "solutions").len();
     }
 
-    assert_eq!(count_tags(&tree, "svg"), 3 + modes);
+    // At rest, and at the end of each of the two steps.
+    let bodies = 3;
+    assert_eq!(count_tags(&tree, "svg"), 3 + bodies + modes);
 
     let files = names(&pictures);
     let has_png = cfg!(feature = "png");
     let formats = if has_png { 2 } else { 1 };
 
-    assert_eq!(files.len(), formats * (3 + modes), "{files:?}");
+    assert_eq!(files.len(), formats * (3 + bodies + modes), "{files:?}");
     for name in files.iter().filter(|name| name.ends_with(".svg")) {
         let svg = read(&format!("{pictures}/{name}"));
         assert!(Document::parse(&svg).is_ok(), "{name}");

@@ -37,6 +37,7 @@
 mod check;
 mod condense;
 mod contact;
+mod deformed;
 mod error;
 mod line;
 mod linear;

@@ -36,6 +36,7 @@ impl Drawn<'_> {
                 v: &mode.v,
                 slipping: &mode.slipping,
             }),
+            load: None,
         };
 
         let caption = match mode {

@@ -1,5 +1,6 @@
 //! `mceip path --own-critical`: its options, its certificates in a folder, its pictures.
 
+use super::bodies;
 use crate::cli::common::{CliError, friction_of, positive};
 use crate::cli::output::Folder;
 use crate::cli::pictures::Named;
@@ -126,7 +127,7 @@ fn name_of(mu: &Rational, place: PathPlace) -> String {
     }
 }
 
-/// Where along mu the loads lead to what, and how fast it grows.
+/// Where along mu the loads lead to what, how fast it grows, and the body that decides.
 pub(super) fn pictures(own: &OwnCritical) -> Vec<Named> {
     if own.points.is_empty() {
         return Vec::new();
@@ -134,6 +135,7 @@ pub(super) fn pictures(own: &OwnCritical) -> Vec<Named> {
 
     let mut all = vec![strip(own)];
     all.extend(growth(own));
+    all.extend(bodies::of_deciding(own));
     all
 }
 

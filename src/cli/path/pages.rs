@@ -5,6 +5,7 @@
 //! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
 //! in doubles. Modes are drawn where the file says where its nodes are.
 
+use super::bodies::{self, numbered};
 use super::own;
 use super::states::{
     ExaminedStates, Growing, Holds, IN_A_REPORT, ProvedMode, ProvedSet, ProvedState, is_slip,
@@ -25,7 +26,7 @@ use crate::say::stretches::stretch_cells;
 use crate::{LoadPath, OwnCritical, PathAnalysis};
 use mceip_engine::run::Watch;
 use mceip_exact::{Interval, enclosing_decimals, to_f64, upper_decimal};
-use mceip_model::{Coordinates, ModelError, Particle, System};
+use mceip_model::{Coordinates, ModelError, System};
 use mceip_path::LoadingPath;
 use num_traits::Zero;
 
@@ -157,11 +158,15 @@ impl Shown<'_> {
         self.followed.loads().body().system()
     }
 
-    /// Every picture: the path, the thresholds, lambda against mu, a mode for each certified
-    /// solution.
+    /// Every picture: the path, the body at rest and at the end of each step, the thresholds,
+    /// lambda against mu, a mode for each certified solution; with the own critical friction the
+    /// body that decides.
     pub(super) fn pictures(&self) -> Result<Vec<Named>, ModelError> {
         let mut all = vec![self.path_chart()];
-        all.extend(self.own.into_iter().flat_map(own::pictures));
+        match self.own {
+            Some(own) => all.extend(own::pictures(own)),
+            None => all.extend(self.bodies()),
+        }
         if let Some(ExaminedStates { proved: states, .. }) = self.examined {
             all.push(self.threshold_chart(states));
             all.extend(self.branch_chart());
@@ -176,6 +181,10 @@ impl Shown<'_> {
     fn path_chart(&self) -> Named {
         let picture = path_chart(self.followed, self.names);
         Named::chart("path", picture, PATH_CAPTION)
+    }
+
+    fn bodies(&self) -> Vec<Named> {
+        bodies::of_path(self.followed.loads(), self.path())
     }
 
     fn threshold_chart(&self, states: &[ProvedState]) -> Named {
@@ -242,6 +251,10 @@ impl Shown<'_> {
                 Content::Paragraph(of_which_body(self.followed.is_in_doubles()).into()),
             ],
         };
+        if self.own.is_none() {
+            let bodies = self.bodies().into_iter();
+            path.content.extend(bodies.map(Named::into_figure));
+        }
         let doubts = doubts_text(self.followed);
         if !doubts.is_empty() {
             path.content.insert(0, Content::Warning(doubts));
@@ -470,20 +483,9 @@ struct DrawnState<'a> {
 }
 
 impl DrawnState<'_> {
-    /// The particles with the names that the table of events has for them, numbers from 1.
-    fn named_particles(&self) -> Vec<Particle> {
-        let mut particles = self.system.particles().to_vec();
-        for (node, particle) in particles.iter_mut().enumerate() {
-            let number = (node + 1).to_string();
-            particle.name.get_or_insert(number);
-        }
-
-        particles
-    }
-
     /// The picture of a mode; `None` if its displacement is not known.
     fn mode(&self, mode: &ProvedMode, title: &str, name: String) -> Option<Named> {
-        let particles = self.named_particles();
+        let particles = numbered(self.system.particles());
         let slip = particles
             .iter()
             .enumerate()
@@ -497,6 +499,7 @@ impl DrawnState<'_> {
                 v: mode.displacement.as_ref()?,
                 slipping: &slipping,
             }),
+            load: None,
         };
         let moving = slipping.len();
         let slip = self.state.slip;
