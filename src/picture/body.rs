@@ -4,8 +4,9 @@
 //!
 //! The obstacle of a particle is a line across its normal, with hatching on the side into which the
 //! normal points: a wrong angle or normal direction is seen at once; a particle that is out of
-//! contact has none. Nodes that are held are squares. A bar shows the unit of length. Names that
-//! would cover each other are left out.
+//! contact has none. It stays where the body is at rest: a mode does not move the obstacle. Nodes
+//! that are held are squares. A bar shows the unit of length, that of the coordinates. Names that
+//! would cover each other are left out; long ones are cut so that no two are alike.
 //!
 //! A node moves by (v_i, v_j), i and j its degrees of freedom along x and y; it is drawn moved by
 //! that times one factor for all nodes, which the picture states. A mode has no size of its own;
@@ -15,7 +16,8 @@ use super::chart::{line, text};
 use super::drawing::Picture;
 use super::legend::legend;
 use super::marker::Mark;
-use super::markup::{Element, point_list, segment, short};
+use super::markup::{Element, point_list, segment};
+use super::names::short_names;
 use super::scale::label;
 use mceip_exact::to_f64;
 use mceip_model::{ContactState, Coordinates, Direction, Particle};
@@ -142,17 +144,19 @@ impl Placement {
         (self.left + right, MARGIN + down)
     }
 
-    /// A bar of a round length, at the right, with its words at the height y.
+    /// A bar of a round length, at the right, with its words at the height y. A file does not say
+    /// in which unit its coordinates are.
     fn bar(&self, y: f64) -> Element {
         let length = round_below(BAR / self.unit);
         let right = FITS.0 + 1.5 * MARGIN;
         let left = right - length * self.unit;
+        let words = format!("{} in the unit of the coordinates", label(length));
         let ends = [left, right].map(|x| line((x, y - 3.0), (x, y + 3.0), "#000", 1.2));
         Element::new("g")
             .with("class", "bar")
             .child(line((left, y), (right, y), "#000", 1.2))
             .children(ends)
-            .child(text(left - 8.0, y + 4.5, "end", label(length)))
+            .child(text(left - 8.0, y + 4.5, "end", words))
     }
 
     /// Lower end of the body on paper, px.
@@ -189,7 +193,7 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
     }
 
     let below = placement.bottom() + MARGIN;
-    let mut picture = Picture::new(title, FITS.0 + 2.0 * MARGIN, below + 46.0);
+    let mut picture = Picture::new(title, FITS.0 + 2.0 * MARGIN, below + 66.0);
     picture.push_heading(MARGIN / 2.0, 28.0);
     let radius = body.radius(&on_paper);
     let Some(mode) = &body.mode else {
@@ -199,7 +203,7 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
         picture.push(body.marks(&on_paper, radius));
         picture.push(body.names(&on_paper));
         picture.push(body.legend(MARGIN / 2.0, below + 8.0));
-        picture.push(placement.bar(below + 30.0));
+        picture.push(placement.bar(below + 50.0));
         return picture;
     };
 
@@ -216,7 +220,7 @@ pub fn body_picture(title: &str, body: &BodyDrawing<'_>) -> Picture {
     picture.push(body.marks(&moved, radius));
     picture.push(body.names(&moved));
     picture.push(body.legend(MARGIN / 2.0, below + 8.0));
-    picture.push(placement.bar(below + 30.0));
+    picture.push(placement.bar(below + 50.0));
 
     let note = if largest > 0.0 {
         format!(
@@ -423,12 +427,11 @@ impl BodyDrawing<'_> {
     fn names(&self, on_paper: &[(f64, f64)]) -> Element {
         let mut names = Element::new("g").with("class", "names");
         let mut taken: Vec<[f64; 3]> = Vec::new(); // left, right, y
-        for (index, particle) in self.particles.iter().enumerate() {
+        for (particle, name) in self.particles.iter().zip(self.short_names()) {
             let Some(node) = self.coordinates.node_of(particle.tangential) else {
                 continue;
             };
 
-            let name = self.name(index);
             let half = 0.5 * NAME_LETTER * NAME_SIZE * name.chars().count() as f64;
             let (x, y) = (on_paper[node].0, on_paper[node].1 + RADIUS + 20.0);
             let [left, right] = [x - half, x + half];
@@ -459,9 +462,7 @@ impl BodyDrawing<'_> {
             let (x, y) = on_paper[node];
             let mut mark = self.mark(index).draw(x, y, radius);
             if self.mark(index) == Mark::SlipAlong {
-                let degrees = short(self.slip_angle(particle, node));
-                let turn = format!("rotate({degrees} {} {})", short(x), short(y));
-                mark = mark.with("transform", turn);
+                mark = mark.turned(self.slip_angle(particle, node), (x, y));
             }
             marks.push(mark);
         }
@@ -471,7 +472,7 @@ impl BodyDrawing<'_> {
 
     /// The angle on paper, in degrees clockwise from x, of -S times the tangent: the direction of
     /// impending slip.
-    fn slip_angle(&self, particle: &Particle, node: usize) -> f64 {
+    pub(super) fn slip_angle(&self, particle: &Particle, node: usize) -> f64 {
         let sign = match particle.state {
             ContactState::Slip { sign } => f64::from(sign),
             _ => 0.0,
@@ -482,10 +483,11 @@ impl BodyDrawing<'_> {
         (-slip_y).atan2(slip_x).to_degrees()
     }
 
-    /// The first letters of a particle's name, or its number.
-    fn name(&self, particle: usize) -> String {
-        let name = self.particles[particle].name_or(particle);
-        name.chars().take(LETTERS).collect()
+    /// The names of the particles, or their numbers, each in few letters and no two alike.
+    fn short_names(&self) -> Vec<String> {
+        let particles = self.particles.iter().enumerate();
+        let names: Vec<String> = particles.map(|(k, p)| p.name_or(k)).collect();
+        short_names(&names, LETTERS)
     }
 
     /// The markers that occur with their words, from (x, y) on.

@@ -114,7 +114,7 @@ impl Branches {
         };
 
         Axis {
-            label: "growth rate \u{3bb} (1/s)",
+            label: "growth rate \u{3bb} (1/s); linear near 0, then log",
             spread: Spread::LogWithZero { unit },
             values: (0.0, all.high * 1.25),
             ticks: 7,

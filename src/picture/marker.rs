@@ -42,6 +42,14 @@ impl Mark {
         }
     }
 
+    /// The triangle that is turned into the direction of slip, for either sign.
+    pub(super) fn turned(self) -> Mark {
+        match self {
+            Mark::SlipAgainst => Mark::SlipAlong,
+            other => other,
+        }
+    }
+
     /// The words of legends, short: all of them stand in one row. A node slips along its tangent or
     /// against it.
     pub fn word(self) -> &'static str {

@@ -73,6 +73,12 @@ impl Element {
         self
     }
 
+    /// Turned about a place on paper, clockwise.
+    pub(super) fn turned(self, degrees: f64, (x, y): (f64, f64)) -> Element {
+        let turn = format!("rotate({} {} {})", short(degrees), short(x), short(y));
+        self.with("transform", turn)
+    }
+
     /// Adds a child.
     pub fn push(&mut self, child: Element) {
         self.children.push(Child::Element(child));

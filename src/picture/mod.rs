@@ -20,6 +20,7 @@ mod legend;
 mod marker;
 mod markup;
 mod motion;
+mod names;
 mod path;
 #[cfg(feature = "png")]
 mod png;

@@ -2,16 +2,20 @@
 //!
 //! Above stands a chart of T, N and mu N against the load, step by step. Below it stands a table of
 //! the contact states with a column for each stretch and a row for each candidate. All columns have
-//! one width; grey lines tie each to its part of the load. Called by `mceip path`.
+//! one width; grey lines tie each to its part of the load. A triangle points where the candidate is
+//! about to slip, as in pictures of the body, where the places of the nodes are known; elsewhere to
+//! the right along its tangent, and to the left against it. Called by `mceip path`.
 
+use super::body::BodyDrawing;
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
 use super::legend::legend;
 use super::marker::Mark;
 use super::markup::Element;
+use super::names::short_names;
 use super::scale::Spread;
 use mceip_exact::to_f64;
-use mceip_model::Particle;
+use mceip_model::{ContactState, Coordinates, Particle};
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
 
 const WIDTH: f64 = 860.0;
@@ -40,6 +44,8 @@ pub struct PathDrawing<'a> {
     pub steps: &'a [&'a str],
     /// The candidates; one without a name has its number from 1.
     pub candidates: &'a [Particle],
+    /// Where the nodes are, if that is known.
+    pub coordinates: Option<&'a Coordinates>,
 }
 
 /// Draws a path: above T, N and mu N against the load with a dot at each event and the name of each
@@ -57,12 +63,21 @@ pub fn path_picture(title: &str, drawing: &PathDrawing<'_>) -> Picture {
     let chart = push_resultants(&mut picture, path, &ends);
     drawing.push_steps(&mut picture, &chart, &ends);
     table.push_ties(&mut picture, &chart, &ends);
-    picture.push(table.marks(path));
+    picture.push(table.marks(drawing));
     table.push_labels(&mut picture, drawing.candidates);
 
     let states = path.stretches.iter().flat_map(|i| i.equilibrium_states());
-    let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
-    picture.push(legend(&marks, LEFT, table.bottom() + 62.0, Mark::word));
+    let mut marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
+    if drawing.coordinates.is_some() {
+        for mark in &mut marks {
+            *mark = mark.turned();
+        }
+    }
+    let word = |mark| match (mark, drawing.coordinates) {
+        (Mark::SlipAlong, Some(_)) => "impending slip, the way it points",
+        _ => mark.word(),
+    };
+    picture.push(legend(&marks, LEFT, table.bottom() + 62.0, word));
 
     picture
 }
@@ -258,6 +273,27 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
 }
 
 impl PathDrawing<'_> {
+    /// The direction in which a candidate is about to slip, in degrees clockwise from x; `None` of
+    /// other states, and where the places of the nodes are not known.
+    fn slip_angle(&self, candidate: usize, state: ContactState) -> Option<f64> {
+        let ContactState::Slip { .. } = state else {
+            return None;
+        };
+        let coordinates = self.coordinates?;
+        let particle = Particle {
+            state,
+            ..self.candidates[candidate].clone()
+        };
+        let body = BodyDrawing {
+            coordinates,
+            particles: &[],
+            mode: None,
+            load: None,
+        };
+        let node = coordinates.node_of(particle.tangential)?;
+        Some(body.slip_angle(&particle, node))
+    }
+
     /// A line where each step begins, and its name at the top of its part of the chart, as much of
     /// it as there is room for.
     fn push_steps(&self, picture: &mut Picture, chart: &Chart, ends: &[f64]) {
@@ -358,15 +394,19 @@ impl StateTable {
         }
     }
 
-    fn marks(&self, path: &LoadingPath) -> Element {
+    fn marks(&self, drawing: &PathDrawing<'_>) -> Element {
         let radius = 0.42 * self.row_height.min(self.column_width);
         let mut marks = Element::new("g").with("class", "marks");
 
-        for (column, stretch) in path.stretches.iter().enumerate() {
+        for (column, stretch) in drawing.path.stretches.iter().enumerate() {
             let x = self.left_of(column) + self.column_width / 2.0;
             for (node, state) in stretch.equilibrium_states().iter().enumerate() {
                 let y = StateTable::TOP + self.row_height * (node as f64 + 0.5);
-                marks.push(Mark::of(*state).draw(x, y, radius));
+                let mark = Mark::of(*state);
+                marks.push(match drawing.slip_angle(node, *state) {
+                    Some(degrees) => mark.turned().draw(x, y, radius).turned(degrees, (x, y)),
+                    None => mark.draw(x, y, radius),
+                });
             }
         }
 
@@ -376,12 +416,15 @@ impl StateTable {
     /// Names or numbers of candidates at the left and numbers of stretches below, as many as there
     /// is room for.
     fn push_labels(&self, picture: &mut Picture, candidates: &[Particle]) {
+        let mut names = Vec::with_capacity(self.rows);
+        for (node, candidate) in candidates.iter().enumerate() {
+            names.push(candidate.name_or(node + 1));
+        }
+        let letters = (LEFT - 8.0 - StateTable::HEADING) / LETTER;
+        let names = short_names(&names, letters as usize);
         for node in (0..self.rows).step_by(every(13.0, self.row_height)) {
             let y = StateTable::TOP + self.row_height * (node as f64 + 0.5) + 4.0;
-            let name = candidates[node].name.as_deref();
-            let name = name.and_then(|name| shortened(name, LEFT - 8.0 - StateTable::HEADING));
-            let name = name.unwrap_or_else(|| (node + 1).to_string());
-            let label = text(LEFT - 8.0, y, "end", name);
+            let label = text(LEFT - 8.0, y, "end", &names[node]);
             picture.push(label.with("class", "candidate").with("font-size", "11"));
         }
 

@@ -14,7 +14,7 @@ use mceip::picture::{
     body_vtu, branch_picture, cost_picture, path_picture, presence_picture, table1_picture,
     threshold_picture,
 };
-use mceip_exact::to_f64;
+use mceip_exact::{to_f64, whole};
 use mceip_model::file::read_problem;
 use mceip_model::{ContactState, Particle, Problem};
 use mceip_paper::{Block, BlockModel, Loading};
@@ -192,7 +192,8 @@ fn a_mesh_is_drawn_deformed_with_the_mark_of_every_candidate() {
     assert_eq!(count(&tree, "obstacle"), 6, "of all but the free one");
     let bar = of_class(&tree, "bar")[0];
     let words = bar.descendants().find_map(|node| node.text());
-    assert_eq!(words, Some("10"), "mm, of the 80 of the block");
+    let expected = "10 in the unit of the coordinates";
+    assert_eq!(words, Some(expected), "mm, of the 80 of the block");
 
     for class in ["deformed", "edges"] {
         let edges = of_class(&tree, class)[0].attribute("d").unwrap();
@@ -401,10 +402,12 @@ fn the_path_is_drawn_as_it_is() {
     let count_of_candidates = path.stretches[0].states.len();
     let mut candidates = vec![Particle::plain(0, 1, ContactState::Stick); count_of_candidates];
     candidates[0].name = Some("trailing edge".into());
+    candidates[1].name = Some("trailing edge two".into());
     let drawing = PathDrawing {
         path: &path,
         steps: &["press", "push"],
         candidates: &candidates,
+        coordinates: None,
     };
     let text = sound(&path_picture("path", &drawing));
     let tree = Document::parse(&text).unwrap();
@@ -444,8 +447,9 @@ fn the_path_is_drawn_as_it_is() {
     assert_eq!(steps, ["press", "push"]);
     let rows = of_class(&tree, "candidate");
     assert_eq!(rows.len(), count_of_candidates);
-    assert_eq!(rows[0].text(), Some("traili\u{2026}"));
-    assert_eq!(rows[1].text(), Some("2"));
+    assert_eq!(rows[0].text(), Some("trail\u{2026}e"));
+    assert_eq!(rows[1].text(), Some("trail\u{2026}o"));
+    assert_eq!(rows[2].text(), Some("3"));
 }
 
 #[test]
@@ -456,6 +460,7 @@ fn resultants_below_zero_are_drawn_below_zero() {
         path: followed.as_path(),
         steps: &loads.step_names(),
         candidates: loads.candidates(),
+        coordinates: None,
     };
     let text = sound(&path_picture("path", &drawing));
     let tree = Document::parse(&text).unwrap();
@@ -465,6 +470,44 @@ fn resultants_below_zero_are_drawn_below_zero() {
     assert_eq!(tangential[..2], [0.0, -0.3]);
     let heights = data(&points, "cy");
     assert!(heights[1] > heights[0]);
+}
+
+/// Where the places of the nodes are known, triangles point the way of impending slip, as on the
+/// body: to the left along -x, and down where the tangent points up.
+#[test]
+fn triangles_of_a_path_point_where_the_candidates_slip() {
+    let loads = mceip::Loads::read("spec/examples/loads.json").unwrap();
+    let followed = loads.path().run().unwrap().unwrap();
+    let states = followed.as_path().stretches.iter();
+    let slips = states.flat_map(|stretch| stretch.equilibrium_states());
+    let slips = slips.filter(|state| Mark::of(**state) == Mark::SlipAgainst);
+    let slips = slips.count();
+    assert!(slips > 3);
+
+    let up = [[0, 1], [-1, 0]].map(|row| row.map(whole));
+    for (frame, turn) in [(None, "180 "), (Some(up), "rotate(90 ")] {
+        let mut candidates = loads.candidates().to_vec();
+        for candidate in &mut candidates {
+            candidate.frame = frame.clone();
+        }
+        let drawing = PathDrawing {
+            path: followed.as_path(),
+            steps: &loads.step_names(),
+            candidates: &candidates,
+            coordinates: loads.as_file().coordinates.as_ref(),
+        };
+        let text = sound(&path_picture("path", &drawing));
+        let tree = Document::parse(&text).unwrap();
+
+        assert_eq!(count(&tree, Mark::SlipAgainst.class()), 0);
+        let drawn = of_class(&tree, Mark::SlipAlong.class());
+        assert_eq!(drawn.len(), slips);
+        for mark in drawn {
+            let transform = mark.attribute("transform").unwrap();
+            assert!(transform.contains(turn), "{transform}");
+        }
+        assert!(text.contains("the way it points") && !text.contains("against tangent"));
+    }
 }
 
 /// The solutions of one stretch of the path. Where mu > 5 one slip node does not move.

@@ -41,7 +41,10 @@ impl Drawn<'_> {
 
         let caption = match mode {
             None => "The body and the states of its particles, as the problem file gives them.",
-            Some(_) => "The direction in which the body departs; displacements have one scale.",
+            Some(_) => {
+                "The direction in which the body departs; displacements have one scale. The \
+                 obstacle stands where the body is at rest."
+            }
         };
         Some(Named::body(name, title, &drawing, caption))
     }

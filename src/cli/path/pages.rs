@@ -129,6 +129,7 @@ pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Picture {
         path: followed.as_path(),
         steps,
         candidates: followed.loads().candidates(),
+        coordinates: followed.loads().as_file().coordinates.as_ref(),
     };
     let title = "Loading path: resultants, and the state of each contact candidate";
     path_picture(title, &drawing)
