@@ -36,6 +36,7 @@ from .answers import (
     Proof,
     Solution,
     SolutionSet,
+    Stability,
     Uncertified,
 )
 from .complementarity import McpPoint, McpResiduals, mcp
@@ -94,6 +95,7 @@ __all__ = [
     "RejectedError",
     "Solution",
     "SolutionSet",
+    "Stability",
     "Step",
     "Stretch",
     "Uncertified",

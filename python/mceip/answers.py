@@ -274,6 +274,22 @@ class Presence:
 
 
 @dataclass(frozen=True)
+class Stability:
+    """What an accepted certificate of stability has proved.
+
+    Attributes:
+        start: the smallest friction coefficient of which this is proved; not 0 itself.
+        end: the largest: for each from start to end a motion that begins near the equilibrium, in
+            contact, stays near it.
+        of_every_motion: False if that is said only of motions that keep to the contact states.
+    """
+
+    start: Fraction
+    end: Fraction
+    of_every_motion: bool
+
+
+@dataclass(frozen=True)
 class Proof:
     """A certificate that the checker has accepted, with the problem that it belongs to.
 
@@ -287,7 +303,7 @@ class Proof:
     problem: dict[str, Any] = field(repr=False)
     certificate: Certificate = field(repr=False)
 
-    def check(self) -> Accepted | Absence | Presence:
+    def check(self) -> Accepted | Absence | Presence | Stability:
         """Runs the checker once more; raises `RejectedError` where it refuses."""
         native = NativeProblem.from_json(json.dumps(self.problem))
         text = json.dumps(self.certificate)
@@ -300,6 +316,10 @@ class Proof:
         if kind == "mceip-presence/1":
             start, end, pieces = native.check_presence(text)
             return Presence(fraction_of(start), fraction_of(end), pieces)
+
+        if kind == "mceip-stability/1":
+            start, end, of_every_motion = native.check_stability(text)
+            return Stability(fraction_of(start), fraction_of(end), of_every_motion)
 
         return accepted_of(json.loads(native.check(text)))
 
@@ -438,6 +458,14 @@ class Analysis:
     def critical_friction(self) -> Interval | None:
         """Bounds of the critical friction coefficient; None where no upper bound was found."""
         return self.critical.bounds
+
+    @property
+    def stability(self) -> Stability | None:
+        """For which friction coefficients the equilibrium is proved to be stable; None for none."""
+        answer = self.answer["stability"]
+        if answer is None:
+            return None
+        return Stability(Fraction(0), fraction_of(answer["to"]), answer["of_every_motion"])
 
     def __str__(self) -> str:
         return self.summary

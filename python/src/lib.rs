@@ -14,8 +14,8 @@ mod watched;
 
 use contact::Contacts;
 use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
-use mceip_check::certificate::{CriticalCertificate, PresenceCertificate};
-use mceip_check::{check_critical, check_presence};
+use mceip_check::certificate::{CriticalCertificate, PresenceCertificate, StabilityCertificate};
+use mceip_check::{check_critical, check_presence, check_stability};
 use mceip_model::{Body, Coordinates, System};
 use mceip_paper::{ContactTable, Plausibility, PlausibilityInput};
 use pyo3::exceptions::PyValueError;
@@ -296,6 +296,19 @@ impl NativeProblem {
         let from = accepted.from.to_string();
         let to = accepted.to.to_string();
         Ok((from, to, accepted.pieces))
+    }
+
+    /// The verdict of the checker on `mceip-stability/1`: the smallest and the largest friction
+    /// coefficient of which stability is proved, and whether of every motion.
+    fn check_stability(&self, py: Python<'_>, text: &str) -> PyResult<(String, String, bool)> {
+        let read = StabilityCertificate::from_json(text);
+        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
+
+        let verdict = py.detach(|| check_stability(self.0.as_model(), &certificate));
+        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
+        let from = accepted.from.to_string();
+        let to = accepted.to.to_string();
+        Ok((from, to, accepted.is_of_every_motion))
     }
 }
 

@@ -158,7 +158,7 @@ def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_proble
 
     verdicts = [proof.check() for proof in analysis.proofs]
 
-    kinds = {mceip.Accepted, mceip.Absence, mceip.Presence}
+    kinds = {mceip.Accepted, mceip.Absence, mceip.Presence, mceip.Stability}
     assert {type(verdict) for verdict in verdicts} == kinds
 
     absence = next(verdict for verdict in verdicts if isinstance(verdict, mceip.Absence))
@@ -170,6 +170,10 @@ def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_proble
     assert analysis.critical.mu[0] <= presence.start < presence.end
     assert presence.start <= 3 <= presence.end
     assert presence.pieces > 0
+
+    stability = next(verdict for verdict in verdicts if isinstance(verdict, mceip.Stability))
+    assert stability == analysis.stability
+    assert 0 == stability.start < stability.end < absence.below
 
     other = json.loads(example("point").to_json())
     for proof in analysis.proofs:

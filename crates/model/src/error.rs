@@ -376,7 +376,7 @@ fn remedy_for(what: &str) -> &'static str {
 const BESIDE_PROBLEM: &str = "`mceip check PROBLEM CERTIFICATE` reads it beside its problem";
 
 /// The formats that commands read, and which command does.
-const FORMATS: [(&str, &str); 9] = [
+const FORMATS: [(&str, &str); 10] = [
     (
         "mceip-problem/1",
         "`mceip analyze`, `complete` and `solve` read problems",
@@ -385,6 +385,7 @@ const FORMATS: [(&str, &str); 9] = [
     ("mceip-certificate/1", BESIDE_PROBLEM),
     ("mceip-critical/1", BESIDE_PROBLEM),
     ("mceip-presence/1", BESIDE_PROBLEM),
+    ("mceip-stability/1", BESIDE_PROBLEM),
     (
         "mceip-equilibrium/1",
         "`mceip check LOADS CERTIFICATE` reads it beside its loads",
