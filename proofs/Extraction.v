@@ -16,7 +16,7 @@ From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Covers Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import ZeroPencil ZeroEnclosed ZeroComplete Points Rational Statement
-  Integral Equilibrium Unique Verdict.
+  Integral Equilibrium Unique Stability Stable Verdict.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
@@ -71,4 +71,5 @@ Extraction "kernel.ml"
   mixed box_expansions friction_anchor check_parts box_regular restricted combine_rows
   check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held
   is_apart applied_row equations
-  inequalities scaled_row signed_part check_given_rates.
+  inequalities scaled_row signed_part check_given_rates check_given_stable k_rows m_rows k_corrected
+  m_corrected turned_rows form_size width sum_abs mu_pencil.

@@ -230,7 +230,7 @@ Qed.
 
 Lemma equivalent_meaning s : meaning_in P' s -> meaning_in P s.
 Proof.
-case: s => [lo hi l|lo hi c|c|from bound|from bound|//|points|//] /=.
+case: s => [lo hi l|lo hi c|c|from bound|from bound|//|//|points|//] /=.
 - by move=> hold; apply: List.Forall_impl hold => a; apply: equivalent_asserted.
 - by case=> all each; split=> [|f /each]; [apply: equivalent_solutions|apply: equivalent_family].
 - by case=> Q [is_Q all each]; exists Q; split=> //; apply: (same_pencils E).

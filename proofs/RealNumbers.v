@@ -16,7 +16,7 @@ From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying Covers ZeroComplete Critical CriticalAnchors.
 From Mceip Require Import PresenceAnchors.
-From Mceip Require Import Points Equilibrium Unique Verdict.
+From Mceip Require Import Points Equilibrium Unique Stable Verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -188,6 +188,7 @@ Definition infinity_hold_R := @infinity_hold reals.
 Definition plain_mcp_sound_R := @plain_mcp_sound reals.
 Definition equilibrium_sound_R := @equilibrium_sound reals.
 Definition rates_sound_R := @rates_sound reals.
+Definition stability_sound_R := @stability_sound reals.
 
 Definition answer_sound_realalg := @answer_sound realalg_rcfType.
 Definition families_number_realalg := @families_number realalg_rcfType.
@@ -224,3 +225,4 @@ Definition infinity_hold_realalg := @infinity_hold realalg_rcfType.
 Definition plain_mcp_sound_realalg := @plain_mcp_sound realalg_rcfType.
 Definition equilibrium_sound_realalg := @equilibrium_sound realalg_rcfType.
 Definition rates_sound_realalg := @rates_sound realalg_rcfType.
+Definition stability_sound_realalg := @stability_sound realalg_rcfType.

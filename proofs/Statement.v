@@ -21,6 +21,9 @@
    A body under loads has *equilibria*: displacements u with reactions that satisfy (1), (5) and (7)
    ([in_equilibrium]).  While a load grows, a system moves at the rates of [rates_under].
 
+   An equilibrium is *stable* if its small motions lose energy as [stable_at] says: the hypothesis
+   of the theorem of stability, whose part about time is not in this file.
+
    Vectors that are positive multiples of each other are one solution.  Each complementarity
    variable has a *rate* (x_i; how fast a particle slips or opens) and a *row* (y_i), of which one
    is 0.  [meaning] says for each kind of statement what it means in a real closed field.
@@ -73,6 +76,8 @@ Inductive statement :=
   (* In these contact states, for each friction between these two, at most one motion of the
      quasi-static rate problem, whatever load grows. *)
   | OneMotionOfRates of point & point
+  (* In these contact states the equilibrium is stable, for each friction between these two. *)
+  | StableForFriction of point & point
   (* Each of these points solves the plain problem. *)
   | PointsSolve of seq mcp_point
   (* With this friction, and so much of each load, an equilibrium with the candidates in these
@@ -184,6 +189,83 @@ Definition rates_under (f : nat -> R) mu v :=
 Definition one_motion_of_rates mu := [/\ with_zero B = [::], 0 < mu &
   forall f v v', rates_under f mu v -> rates_under f mu v' ->
     forall d, d \in iota 0 (degrees B) -> v d = v' d].
+
+(* Small motions about the equilibrium: displacements v, velocities r and accelerations a of the
+   degrees of freedom.  M a; the slide of each slip particle in its direction; and for forces f how
+   far its reaction is from the cone. *)
+Definition inertia_of a d :=
+  \sum_(j <- iota 0 (degrees B)) given_entry (given_mass B) d j * a j.
+
+Definition slide v j := - (toR (sign (slip_at j)) * tangential (slip_at j) v).
+
+Definition cone_margin mu (f : nat -> R) j := let p := slip_at j in
+  - (toR (sign p) * tangential p f + fraction (factor_of p) * mu * normal_to p f).
+
+Definition inner_product (v f : nat -> R) := \sum_(d <- iota 0 (degrees B)) v d * f d.
+
+Notation sliding := (iota 0 (size (slipping B))).
+
+(* What sticks does not move, and slip particles keep their contact. *)
+Definition admissible v :=
+  (forall d, d \in iota 0 (degrees B) ->
+     d \in dofs_of [seq p <- given_particles B | sticks p] -> v d = 0) /\
+  (forall j, j \in sliding -> normal_to (slip_at j) v = 0).
+
+Definition free_of_forces (f : nat -> R) :=
+  forall d, d \in iota 0 (degrees B) -> d \notin held B -> f d = 0.
+
+(* The laws at an instant of a motion that begins in contact.  A particle whose margin is not 0
+   rests, so that its acceleration is 0 too, but for instants of measure 0. *)
+Definition at_an_instant mu v r a := let f d := force_of 0 v d + inertia_of a d in
+  [/\ admissible v, admissible r, admissible a, free_of_forces f &
+      forall j, j \in sliding ->
+        [/\ 0 <= slide r j, 0 <= cone_margin mu f j, slide r j * cone_margin mu f j = 0 &
+            slide a j * cone_margin mu f j = 0]].
+
+(* u follows the slip particles of v without inertia. *)
+Definition carried u v :=
+  [/\ admissible u, free_of_forces (force_of 0 u) &
+      forall j, j \in sliding -> slide u j = slide v j].
+
+(* There are a form Q, slopes b >= 0 and drifts theta >= 0 with
+
+       x'Q x - (b'x)^2 / 4 > 0   for x >= 0, x != 0,
+       T_ij >= Q_ij + theta_i,   where T x are the margins of what is carried with the slides x,
+
+   and for each small motion v = u + e, r = w + g with u carried by v and w by r, at any instant,
+
+       r'M a + g'K e <= sum_i y_i (- (T x)_i + theta_i sum_j |x_j| + b_i sqrt (e'K e)),
+
+   x the slides of v and y those of r.  The left side is the derivative of (r'M r + e'K e)/2. *)
+Definition loses_energy mu (form : nat -> nat -> R) (slope drift : nat -> R) :=
+  [/\ forall i j, i \in sliding -> j \in sliding -> form i j = form j i,
+      forall i, i \in sliding -> 0 <= slope i /\ 0 <= drift i,
+      forall x, (forall i, i \in sliding -> 0 <= x i) ->
+        (exists2 i, i \in sliding & x i != 0) ->
+        0 < \sum_(i <- sliding) \sum_(j <- sliding) x i * form i j * x j -
+            (\sum_(i <- sliding) slope i * x i) ^+ 2 / 4%:R,
+      forall u, carried u u -> (forall j, j \in sliding -> 0 <= slide u j) ->
+        forall i, i \in sliding ->
+        \sum_(j <- sliding) (form i j + drift i) * slide u j <= cone_margin mu (force_of 0 u) i &
+      forall v r a u w e g, at_an_instant mu v r a -> carried u v -> carried w r ->
+        (forall d, e d = v d - u d) -> (forall d, g d = r d - w d) ->
+        inner_product r (inertia_of a) + inner_product g (force_of 0 e) <=
+        \sum_(i <- sliding) slide r i *
+          (- cone_margin mu (force_of 0 u) i + drift i * (\sum_(j <- sliding) `|slide v j|) +
+           slope i * Num.sqrt (inner_product e (force_of 0 e)))].
+
+(* Energy is positive, and so its derivative is as above. *)
+Definition definite_energy := exists m k,
+  [/\ 0 < m, 0 < k,
+      forall v, admissible v -> m * inner_product v v <= inner_product v (inertia_of v),
+      forall v, admissible v -> (forall j, j \in sliding -> slide v j = 0) ->
+        k * inner_product v v <= inner_product v (force_of 0 v) &
+      forall v w, admissible v -> admissible w ->
+        inner_product v (inertia_of w) = inner_product w (inertia_of v) /\
+        inner_product v (force_of 0 w) = inner_product w (force_of 0 v)].
+
+Definition stable_at mu := [/\ with_zero B = [::], definite_energy &
+  exists form slope drift, loses_energy mu form slope drift].
 
 Definition lambda2_at t := if u is Lambda2 _ _ then t else 0.
 Definition friction_at t := if u is Lambda2 m q then fraction (m, q) else t.
@@ -377,13 +459,15 @@ Definition meaning_in (P : semantics) s :=
       forall mu, between mu from bound -> exists t v, 0 <= t /\ moves t mu v else False
   | PointsSolve points => if solved_by P is Some solved then
       points <> [::] /\ forall z, List.In z points -> solved (point_value R z) else False
-  | OneMotionOfRates _ _ | InEquilibrium _ _ _ => False
+  | OneMotionOfRates _ _ | StableForFriction _ _ | InEquilibrium _ _ _ => False
   end.
 
 Definition meaning p s :=
   match p, s with
   | GivenSystem B _, OneMotionOfRates from bound =>
       forall mu, between mu from bound -> one_motion_of_rates B mu
+  | GivenSystem B _, StableForFriction from bound =>
+      forall mu, between mu from bound -> 0 < mu -> stable_at B mu
   | GivenLoads B, InEquilibrium mu amounts states => has_equilibrium B mu amounts states
   | _, _ => meaning_in (semantics_of p) s
   end.

@@ -9,7 +9,7 @@
    Evidence is what the program's elaborator makes of a certificate; nothing is assumed of it.
    A refusal says which part of the evidence failed.
 
-   Pages: spec/certificates.md, 5.15 to 5.20.  Called by program/main.ml. *)
+   Pages: spec/certificates.md, 5.15 to 5.21.  Called by program/main.ml. *)
 
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
@@ -18,6 +18,7 @@ From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Suppor
 From Mceip Require Import Lifted ZeroReaction PlainMcp Varying Covers ZeroPencil ZeroEnclosed.
 From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import Points Rational Statement Integral Equilibrium Unique.
+From Mceip Require Import Stability Stable.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -55,6 +56,8 @@ Inductive evidence :=
   | Presence of point & point & box_anchoring & seq presence_piece
   (* An interval of friction, the elimination, and a factor at each end. *)
   | DefiniteRates of point & point & elimination & factor & factor
+  (* An interval of friction, the elimination, and what stands at both ends. *)
+  | Stable of point & point & elimination & stability & stable_end & stable_end
   | Points of seq mcp_point
   (* Friction, amounts and states, and what shows that there is an equilibrium in them. *)
   | Equilibrium of rational & seq rational & seq stated & equilibrium_evidence.
@@ -218,6 +221,8 @@ Definition answer p c (e : evidence) : answered :=
         (InEquilibrium mu amounts states)
   | GivenSystem B _, DefiniteRates lo hi w low high =>
       proved_if (check_given_rates c B lo hi w low high) (OneMotionOfRates lo hi)
+  | GivenSystem B _, Stable lo hi w d low high =>
+      proved_if (check_given_stable c B w d lo hi low high) (StableForFriction lo hi)
   | _, _ => scaled_answer p c e
   end.
 
@@ -437,7 +442,8 @@ Qed.
 
 Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
-case: e => [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ?|points|????].
+case: e =>
+  [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ?|? ? ? ? ? ?|points|????].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
@@ -450,6 +456,7 @@ case: e => [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ?
   have [moves -> iff] := moves_of_system eq => mu bm.
   have [t [v [t0 sat]]] := zero_presence_sound ok bm.
   by exists t, v; split=> //; apply/iff.
+- by case: p.
 - by case: p.
 - case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
   split; last exact: plain_mcp_sound.
@@ -466,8 +473,10 @@ Qed.
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
 case: p => [Q|B u|rows|B]; try exact: scaled_sound.
-  case: e => [???|???|???|???|????|lo hi w low high|?|????]; try exact: scaled_sound.
-  by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
+  case: e => [???|???|???|???|????|lo hi w low high|lo hi w d low high|?|????];
+    try exact: scaled_sound.
+    by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
+  by rewrite /= /proved_if; case: ifP => // ok [<-] mu bm _; apply: (stability_sound ok bm).
 case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
 exact: equilibrium_sound ok.
 Qed.
