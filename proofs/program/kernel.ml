@@ -396,6 +396,16 @@ let rec drop n s = match s with
      (fun n' -> drop n' s')
      n)
 
+(** val take : int -> 'a1 list -> 'a1 list **)
+
+let rec take n = function
+| [] -> []
+| x :: s' ->
+  ((fun zero next n -> if n = 0 then zero () else next (Natural.before n))
+     (fun _ -> [])
+     (fun n' -> x :: (take n' s'))
+     n)
+
 (** val mem_seq : Equality.coq_type -> Equality.sort list -> Equality.sort -> bool **)
 
 let rec mem_seq t = function
@@ -3242,15 +3252,15 @@ let inside r pl =
     Z.leb (Big_int_Z.mult_big_int (fst r.lower) v.value_den)
       (Big_int_Z.mult_big_int v.value_from (snd r.lower))
   in
-  let below0 = fun v ->
+  let below1 = fun v ->
     Z.leb (Big_int_Z.mult_big_int v.value_to (snd r.upper))
       (Big_int_Z.mult_big_int (fst r.upper) v.value_den)
   in
   (match pl with
-   | PointAt v -> (&&) (above0 v) (below0 v)
+   | PointAt v -> (&&) (above0 v) (below1 v)
    | Between (v, v') ->
      (&&) (above0 v)
-       ((&&) (below0 v')
+       ((&&) (below1 v')
          (Z.ltb (Big_int_Z.mult_big_int v.value_to v'.value_den)
            (Big_int_Z.mult_big_int v'.value_from v.value_den)))
    | Above v -> (&&) (above0 v) (Big_int_Z.eq_big_int (snd r.upper) Big_int_Z.zero_big_int))
@@ -5314,6 +5324,7 @@ type statement =
 | NoneForFriction of point * point
 | OneForEachFriction of point * point
 | OneMotionOfRates of point * point
+| StableForFriction of point * point
 | PointsSolve of mcp_point list
 | InEquilibrium of rational0 * rational0 list * stated list
 
@@ -5583,6 +5594,327 @@ let check_given_rates c b lo hi w low high =
   (&&) (exact_system c b)
     ((&&) (nilp (with_zero b)) (check_rates (scaled_system c b) lo hi w low high))
 
+type stable_end = { end_form : matrix; end_slope : Big_int_Z.big_int list;
+                    end_unit : Big_int_Z.big_int; end_times : Big_int_Z.big_int;
+                    end_gram : Big_int_Z.big_int; end_factor0 : late_row list }
+
+type stability = { gain : matrix; gain_unit : Big_int_Z.big_int; mass_form : form_bound;
+                   turn : point; wide : point; root : point }
+
+(** val mu_pencil : system -> pencil **)
+
+let mu_pencil s =
+  pencil_of s Mu
+
+(** val mass_pencil : system -> pencil **)
+
+let mass_pencil s =
+  pencil_of s (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int))
+
+(** val friction_pencil : system -> pencil **)
+
+let friction_pencil s =
+  pencil_of s (Lambda2 (Big_int_Z.unit_big_int, Big_int_Z.zero_big_int))
+
+(** val length_of : system -> int -> Big_int_Z.big_int **)
+
+let length_of s i =
+  if leq (Natural.succ i) (free_number s) then s.unit_length else Big_int_Z.unit_big_int
+
+(** val symmetric_form : system -> sparse_row list -> sparse_row list **)
+
+let symmetric_form s rows =
+  map_from (fun i row -> times_row (length_of s i) row) 0 rows
+
+(** val k_rows : system -> sparse_row list **)
+
+let k_rows s =
+  symmetric_form s (mu_pencil s).rows_a
+
+(** val m_rows : system -> sparse_row list **)
+
+let m_rows s =
+  symmetric_form s (mass_pencil s).rows_b
+
+(** val k_friction : system -> int -> (int * Big_int_Z.big_int) list **)
+
+let k_friction s j =
+  nth [] (mu_pencil s).rows_b (addn (free_number s) j)
+
+(** val m_friction : system -> int -> (int * Big_int_Z.big_int) list **)
+
+let m_friction s j =
+  nth [] (friction_pencil s).rows_b (addn (free_number s) j)
+
+(** val corrected_row :
+    stability -> sparse_row list -> sparse_row -> Big_int_Z.big_int list -> sparse_row **)
+
+let corrected_row d free0 row g =
+  cat (times_row d.gain_unit row)
+    (flatten
+      (map0 (fun e -> times_row (Big_int_Z.minus_big_int (fst e)) (snd e)) (zip g free0)))
+
+(** val k_corrected : system -> stability -> int -> sparse_row **)
+
+let k_corrected s d j =
+  corrected_row d (take (free_number s) (k_rows s)) (k_friction s j) (row_of d.gain j)
+
+(** val m_corrected : system -> stability -> int -> sparse_row **)
+
+let m_corrected s d j =
+  corrected_row d (take (free_number s) (m_rows s)) (m_friction s j) (row_of d.gain j)
+
+(** val sum_abs : sparse_row -> Big_int_Z.big_int **)
+
+let sum_abs row =
+  norm1 (spread row)
+
+(** val sumZ_of : ('a1 -> Big_int_Z.big_int) -> 'a1 list -> Big_int_Z.big_int **)
+
+let sumZ_of f l =
+  foldr (fun x sum0 -> Big_int_Z.add_big_int (f x) sum0) Big_int_Z.zero_big_int l
+
+(** val turned_rows : system -> stability -> Big_int_Z.big_int list **)
+
+let turned_rows s d =
+  map0 (fun j -> sum_abs (m_corrected s d j)) (iota 0 (size s.particles))
+
+(** val form_vector : system -> elimination -> stability -> int -> Big_int_Z.big_int list **)
+
+let form_vector s w d j =
+  let g = row_of d.gain j in
+  map_from (fun k x ->
+    Big_int_Z.sub_big_int (Big_int_Z.mult_big_int d.gain_unit x)
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int w.unit_of s.unit_length)
+        (nth Big_int_Z.zero_big_int g k))) 0
+    (map0 (fun k -> nth Big_int_Z.zero_big_int (row_of w.left_vb j) k) (iota 0 (free_number s)))
+
+(** val form_rest : system -> elimination -> stability -> int -> Big_int_Z.big_int list **)
+
+let form_rest s w d j =
+  map0 (fun x -> Big_int_Z.mult_big_int d.gain_unit x)
+    (residual_column (blocks_of (mu_pencil s)) w (blocks_of (mu_pencil s)).sf_b w.left_vb j)
+
+(** val form_size : system -> elimination -> stability -> int -> Big_int_Z.big_int **)
+
+let form_size s w d j =
+  let v = form_vector s w d j in
+  let l = form_rest s w d j in
+  let fv = map0 (fun row -> sparse_dot row v) (blocks_of (mu_pencil s)).ff in
+  Big_int_Z.add_big_int
+    (Big_int_Z.mult_big_int w.bound_d
+      (Big_int_Z.add_big_int (dot v fv)
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) (dot v l))))
+    (Big_int_Z.mult_big_int w.bound_c (dot l l))
+
+(** val width0 : system -> elimination -> Big_int_Z.big_int **)
+
+let width0 s w =
+  let d = blocks_of (mu_pencil s) in
+  sumZ_of (fun j ->
+    Big_int_Z.add_big_int (Big_int_Z.mult_big_int w.bound_d (norm1 (row_of w.right_w j)))
+      (Big_int_Z.mult_big_int w.bound_c (norm1 (residual_column d w d.fs w.right_w j))))
+    (iota 0 (size s.particles))
+
+(** val check_turn : system -> stability -> point -> bool **)
+
+let check_turn s d hi =
+  let e = turned_rows s d in
+  let kappa =
+    Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int d.gain_unit (snd hi))
+        (sumZ_of sum_abs (k_rows s)))
+      (Big_int_Z.mult_big_int (fst hi)
+        (sumZ_of (fun j -> sum_abs (k_corrected s d j)) (iota 0 (size s.particles))))
+  in
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd d.turn))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (fst d.turn))
+      ((&&)
+        (Z.leb
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+                (snd d.turn)) d.mass_form.bound_times) kappa)
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst d.turn) d.mass_form.bound_at)
+              d.gain_unit) (snd hi)))
+        (Z.leb
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+                (fst hi)) d.mass_form.bound_times) (sumZ_of (fun x -> x) e))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int d.mass_form.bound_at (snd hi))
+            d.gain_unit))))
+
+(** val check_wide : system -> elimination -> stability -> bool **)
+
+let check_wide s w d =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd d.wide))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (fst d.wide))
+      (Z.leb (Big_int_Z.mult_big_int (snd d.wide) (width0 s w))
+        (Big_int_Z.mult_big_int (fst d.wide) (Big_int_Z.mult_big_int w.unit_of w.bound_d))))
+
+(** val check_root0 : Big_int_Z.big_int -> system -> elimination -> stability -> bool **)
+
+let check_root0 c s w d =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd d.root))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (fst d.root))
+      ((||) (nilp s.free_dofs)
+        (Z.leb
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd d.root) (snd d.root))
+            (Big_int_Z.mult_big_int w.bound_c (Big_int_Z.mult_big_int c s.unit_length)))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst d.root) (fst d.root)) w.bound_d))))
+
+(** val check_shapes : system -> stability -> bool **)
+
+let check_shapes s d =
+  let n = addn (free_number s) (size s.particles) in
+  let small0 = fun rows -> all (all (fun e -> leq (Natural.succ (fst e)) n)) rows in
+  (&&) (Z.ltb Big_int_Z.zero_big_int d.gain_unit)
+    ((&&)
+      (all (fun j -> leq (size (row_of d.gain j)) (free_number s)) (iota 0 (size s.particles)))
+      ((&&) ((&&) (small0 (k_rows s)) (small0 (m_rows s)))
+        ((&&) (small0 (map0 (fun j -> k_friction s j) (iota 0 (size s.particles))))
+          ((&&) (small0 (map0 (fun j -> m_friction s j) (iota 0 (size s.particles))))
+            (symmetric_rows_sparse (k_rows s))))))
+
+(** val drag_times :
+    stability -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int **)
+
+let drag_times d turned0 e i =
+  Big_int_Z.mult_big_int
+    (Big_int_Z.mult_big_int (fst e) (nth Big_int_Z.zero_big_int turned0 i)) (fst d.turn)
+
+(** val below0 :
+    Big_int_Z.big_int -> system -> elimination -> stability -> enclosed -> Big_int_Z.big_int
+    list -> point -> stable_end -> int -> int -> bool **)
+
+let below0 c s w d p turned0 e f i j =
+  let units =
+    Big_int_Z.mult_big_int (Big_int_Z.mult_big_int d.gain_unit (snd d.turn)) (snd d.wide)
+  in
+  Z.leb
+    (Big_int_Z.mult_big_int
+      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int w.row_scale i)
+        (Big_int_Z.mult_big_int w.unit_of w.unit_of))
+      (Big_int_Z.add_big_int
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int c (Big_int_Z.mult_big_int s.unit_length s.unit_length))
+              (snd e)) units) (entry f.end_form i j))
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int f.end_unit (drag_times d turned0 e i))
+          (Big_int_Z.add_big_int (snd d.wide) (fst d.wide)))))
+    (Big_int_Z.mult_big_int (Big_int_Z.sub_big_int (center p e i j) (radius p e i j))
+      (Big_int_Z.mult_big_int f.end_unit units))
+
+(** val steep :
+    Big_int_Z.big_int -> system -> elimination -> stability -> Big_int_Z.big_int list ->
+    Big_int_Z.big_int list -> point -> stable_end -> int -> bool **)
+
+let steep c s w d turned0 sizes e f i =
+  let units =
+    Big_int_Z.mult_big_int
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd e) d.gain_unit) (snd d.turn))
+        (snd d.root))
+      (Big_int_Z.mult_big_int c (Big_int_Z.mult_big_int s.unit_length s.unit_length))
+  in
+  let rest0 =
+    Big_int_Z.sub_big_int
+      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int f.end_slope i) units)
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int f.end_unit (drag_times d turned0 e i))
+        (fst d.root))
+  in
+  let u = Big_int_Z.mult_big_int d.gain_unit w.unit_of in
+  (&&) (Z.leb Big_int_Z.zero_big_int rest0)
+    (Z.leb
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst e) (fst e))
+          (nth Big_int_Z.zero_big_int sizes i))
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int f.end_unit units)
+          (Big_int_Z.mult_big_int f.end_unit units)))
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd e) (snd e))
+          (Big_int_Z.mult_big_int rest0 rest0))
+        (Big_int_Z.mult_big_int
+          (Big_int_Z.mult_big_int
+            (Big_int_Z.mult_big_int
+              (Big_int_Z.mult_big_int c (Big_int_Z.mult_big_int s.unit_length s.unit_length))
+              s.unit_length) w.bound_d) (Big_int_Z.mult_big_int u u))))
+
+(** val form_entry : stable_end -> int -> int -> Big_int_Z.big_int **)
+
+let form_entry f i j =
+  Big_int_Z.mult_big_int f.end_times
+    (Big_int_Z.sub_big_int
+      (Big_int_Z.mult_big_int
+        (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
+          Big_int_Z.unit_big_int)) f.end_unit) (entry f.end_form i j))
+      (Big_int_Z.mult_big_int (nth Big_int_Z.zero_big_int f.end_slope i)
+        (nth Big_int_Z.zero_big_int f.end_slope j)))
+
+(** val check_end0 :
+    Big_int_Z.big_int -> system -> elimination -> stability -> enclosed -> Big_int_Z.big_int
+    list -> Big_int_Z.big_int list -> point -> stable_end -> bool **)
+
+let check_end0 c s w d p turned0 sizes e f =
+  (&&) (Z.ltb Big_int_Z.zero_big_int f.end_unit)
+    ((&&) (Z.ltb Big_int_Z.zero_big_int f.end_times)
+      ((&&) (Z.leb Big_int_Z.zero_big_int f.end_gram)
+        ((&&)
+          (all (fun i ->
+            all (fun j -> Big_int_Z.eq_big_int (entry f.end_form i j) (entry f.end_form j i))
+              (iota 0 (size s.particles))) (iota 0 (size s.particles)))
+          ((&&)
+            (all (fun i ->
+              Z.leb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int f.end_slope i))
+              (iota 0 (size s.particles)))
+            ((&&)
+              (all (fun i -> all (below0 c s w d p turned0 e f i) (iota 0 (size s.particles)))
+                (iota 0 (size s.particles)))
+              ((&&) (all (steep c s w d turned0 sizes e f) (iota 0 (size s.particles)))
+                ((&&)
+                  (eq_op nat_eqType (Obj.magic size f.end_factor0) (Obj.magic size s.particles))
+                  (covered (form_entry f) (fun a b ->
+                    Big_int_Z.mult_big_int f.end_gram (late_dot a b)) true
+                    (zip (iota 0 (size s.particles)) f.end_factor0)))))))))
+
+(** val check_stable :
+    Big_int_Z.big_int -> system -> elimination -> stability -> point -> point -> stable_end ->
+    stable_end -> bool **)
+
+let check_stable c s w d lo hi low high =
+  let d0 = blocks_of (mu_pencil s) in
+  let p = condensed d0 w in
+  let turned0 = turned_rows s d in
+  let sizes = map0 (fun j -> form_size s w d j) (iota 0 (size s.particles)) in
+  let n = addn (free_number s) (size s.particles) in
+  (&&) (system_wellformed s Mu)
+    ((&&) (wellformed (mu_pencil s))
+      ((&&) (free_rows_constant (mu_pencil s))
+        ((&&) (check_elimination d0 w)
+          ((&&) (ordered lo hi)
+            ((&&) (Z.ltb Big_int_Z.zero_big_int (snd hi))
+              ((&&) (check_shapes s d)
+                ((&&)
+                  ((&&) (Z.ltb Big_int_Z.zero_big_int d.mass_form.bound_at)
+                    (bounded_rows (Obj.magic n) (m_rows s) d.mass_form))
+                  ((&&) (check_turn s d hi)
+                    ((&&) (check_wide s w d)
+                      ((&&) (check_root0 c s w d)
+                        ((&&) (check_end0 c s w d p turned0 sizes lo low)
+                          (check_end0 c s w d p turned0 sizes hi high))))))))))))
+
+(** val check_given_stable :
+    scales -> rational_system -> elimination -> stability -> point -> point -> stable_end ->
+    stable_end -> bool **)
+
+let check_given_stable c b w d lo hi low high =
+  (&&) (exact_system c b)
+    ((&&) (nilp (with_zero b))
+      (check_stable c.entry_scale (scaled_system c b) w d lo hi low high))
+
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of zero_claim
@@ -5604,6 +5936,7 @@ type evidence =
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
+| Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
 
@@ -5806,6 +6139,8 @@ let answer p c e =
     (match e with
      | DefiniteRates (lo, hi, w, low, high) ->
        proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates (lo, hi))
+     | Stable (lo, hi, w, d, low, high) ->
+       proved_if (check_given_stable c b w d lo hi low high) (StableForFriction (lo, hi))
      | _ -> scaled_answer p c e)
   | GivenLoads b ->
     (match e with

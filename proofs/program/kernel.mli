@@ -171,6 +171,8 @@ val all : 'a1 pred0 -> 'a1 list -> bool
 
 val drop : int -> 'a1 list -> 'a1 list
 
+val take : int -> 'a1 list -> 'a1 list
+
 val mem_seq : Equality.coq_type -> Equality.sort list -> Equality.sort -> bool
 
 type seq_eqclass = Equality.sort list
@@ -1816,6 +1818,7 @@ type statement =
 | NoneForFriction of point * point
 | OneForEachFriction of point * point
 | OneMotionOfRates of point * point
+| StableForFriction of point * point
 | PointsSolve of mcp_point list
 | InEquilibrium of rational0 * rational0 list * stated list
 
@@ -1902,6 +1905,84 @@ val check_given_rates :
   scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
   -> factor -> factor -> bool
 
+type stable_end = { end_form : matrix; end_slope : Big_int_Z.big_int list;
+                    end_unit : Big_int_Z.big_int; end_times : Big_int_Z.big_int;
+                    end_gram : Big_int_Z.big_int; end_factor0 : late_row list }
+
+type stability = { gain : matrix; gain_unit : Big_int_Z.big_int; mass_form : form_bound;
+                   turn : point; wide : point; root : point }
+
+val mu_pencil : system -> pencil
+
+val mass_pencil : system -> pencil
+
+val friction_pencil : system -> pencil
+
+val length_of : system -> int -> Big_int_Z.big_int
+
+val symmetric_form : system -> sparse_row list -> sparse_row list
+
+val k_rows : system -> sparse_row list
+
+val m_rows : system -> sparse_row list
+
+val k_friction : system -> int -> (int * Big_int_Z.big_int) list
+
+val m_friction : system -> int -> (int * Big_int_Z.big_int) list
+
+val corrected_row :
+  stability -> sparse_row list -> sparse_row -> Big_int_Z.big_int list -> sparse_row
+
+val k_corrected : system -> stability -> int -> sparse_row
+
+val m_corrected : system -> stability -> int -> sparse_row
+
+val sum_abs : sparse_row -> Big_int_Z.big_int
+
+val sumZ_of : ('a1 -> Big_int_Z.big_int) -> 'a1 list -> Big_int_Z.big_int
+
+val turned_rows : system -> stability -> Big_int_Z.big_int list
+
+val form_vector : system -> elimination -> stability -> int -> Big_int_Z.big_int list
+
+val form_rest : system -> elimination -> stability -> int -> Big_int_Z.big_int list
+
+val form_size : system -> elimination -> stability -> int -> Big_int_Z.big_int
+
+val width0 : system -> elimination -> Big_int_Z.big_int
+
+val check_turn : system -> stability -> point -> bool
+
+val check_wide : system -> elimination -> stability -> bool
+
+val check_root0 : Big_int_Z.big_int -> system -> elimination -> stability -> bool
+
+val check_shapes : system -> stability -> bool
+
+val drag_times : stability -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int
+
+val below0 :
+  Big_int_Z.big_int -> system -> elimination -> stability -> enclosed -> Big_int_Z.big_int list
+  -> point -> stable_end -> int -> int -> bool
+
+val steep :
+  Big_int_Z.big_int -> system -> elimination -> stability -> Big_int_Z.big_int list ->
+  Big_int_Z.big_int list -> point -> stable_end -> int -> bool
+
+val form_entry : stable_end -> int -> int -> Big_int_Z.big_int
+
+val check_end0 :
+  Big_int_Z.big_int -> system -> elimination -> stability -> enclosed -> Big_int_Z.big_int list
+  -> Big_int_Z.big_int list -> point -> stable_end -> bool
+
+val check_stable :
+  Big_int_Z.big_int -> system -> elimination -> stability -> point -> point -> stable_end ->
+  stable_end -> bool
+
+val check_given_stable :
+  scales -> rational_system -> elimination -> stability -> point -> point -> stable_end ->
+  stable_end -> bool
+
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of zero_claim
@@ -1923,6 +2004,7 @@ type evidence =
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
+| Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
 
