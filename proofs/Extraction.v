@@ -71,5 +71,5 @@ Extraction "kernel.ml"
   mixed box_expansions friction_anchor check_parts box_regular restricted combine_rows
   check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held
   is_apart applied_row equations
-  inequalities scaled_row signed_part check_given_rates check_given_stable k_rows m_rows k_corrected
-  m_corrected turned_rows form_size width sum_abs mu_pencil.
+  inequalities scaled_row signed_part check_given_rates check_given_stable mu_pencil k_rows kappa_in
+  width_bound.

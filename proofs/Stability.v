@@ -42,7 +42,7 @@ Record stable_end := StableEnd {
   end_unit : Z;
   end_times : Z;
   end_gram : Z;
-  end_factor : seq late_row }.
+  end_rows : seq late_row }.
 
 (* G has a list over the free degrees of freedom for each slip particle, in units of 1/gain_unit;
    mass_form shows a lower bound of M.  Fractions: [turn] >= 2 kappa / m, [wide] >= w, and [root]^2
@@ -80,10 +80,13 @@ Definition m_friction j := nth [::] (rows_b friction_pencil) (free_number s + j)
 Definition corrected_row (free : seq sparse_row) (row : sparse_row) (g : seq Z) : sparse_row :=
   times_row (gain_unit d) row ++ flatten [seq times_row (- e.1) e.2 | e <- zip g free].
 
-Definition k_corrected j := corrected_row (take (free_number s) k_rows) (k_friction j)
-  (row_of (gain d) j).
-Definition m_corrected j := corrected_row (take (free_number s) m_rows) (m_friction j)
-  (row_of (gain d) j).
+(* Tables are made once, by [check_stable]. *)
+Definition corrected_at (free friction : seq sparse_row) j :=
+  corrected_row (take (free_number s) free) (nth [::] friction (free_number s + j))
+    (row_of (gain d) j).
+
+Definition k_corrected := corrected_at k_rows (rows_b mu_pencil).
+Definition m_corrected := corrected_at m_rows (rows_b friction_pencil).
 
 Definition sum_abs row := norm1 (spread row).
 
@@ -93,7 +96,13 @@ Notation sides := (iota 0 (size (particles s))).
 Notation cl2 := (c * (unit_length s * unit_length s)).
 
 (* gain_unit e_j *)
-Definition turned_rows := [seq sum_abs (m_corrected j) | j <- sides].
+Definition turned_in free friction := [seq sum_abs (corrected_at free friction j) | j <- sides].
+Definition turned_rows := turned_in m_rows (rows_b friction_pencil).
+
+(* kappa, times gain_unit and the denominator of the upper end *)
+Definition kappa_in free friction (hi : point) :=
+  gain_unit d * hi.2 * sumZ_of sum_abs free +
+  hi.1 * sumZ_of (fun j => sum_abs (corrected_at free friction j)) sides.
 
 (* v and l of [form_of_row] for C_j, in units of 1/(gain_unit unit_of). *)
 Definition form_vector j :=
@@ -101,35 +110,30 @@ Definition form_vector j :=
   map_from (fun k x => gain_unit d * x - unit_of w * unit_length s * nth 0 g k) 0
     [seq nth 0 (row_of (left_vb w) j) k | k <- iota 0 (free_number s)].
 
-Definition form_rest j :=
-  [seq gain_unit d * x | x <- residual_column (blocks_of mu_pencil) w
-                                (sf_b (blocks_of mu_pencil)) (left_vb w) j].
+Definition form_rest D j :=
+  [seq gain_unit d * x | x <- residual_column D w (sf_b D) (left_vb w) j].
 
-Definition form_size j :=
+Definition form_size D j :=
   let v := form_vector j in
-  let l := form_rest j in
-  let fv := [seq sparse_dot row v | row <- ff (blocks_of mu_pencil)] in
+  let l := form_rest D j in
+  let fv := [seq sparse_dot row v | row <- ff D] in
   bound_d w * (dot v fv + 2 * dot v l) + bound_c w * dot l l.
 
 (* The exact F^-1 G is at most this, times unit_of bound_d. *)
-Definition width :=
-  let D := blocks_of mu_pencil in
+Definition width_bound D :=
   sumZ_of (fun j => bound_d w * norm1 (row_of (right_w w) j) +
                     bound_c w * norm1 (residual_column D w (fs D) (right_w w) j)) sides.
 
-Definition check_turn (hi : point) :=
-  let e := turned_rows in
-  let kappa := gain_unit d * hi.2 * sumZ_of sum_abs k_rows +
-               hi.1 * sumZ_of (fun j => sum_abs (k_corrected j)) sides in
+Definition check_turn free friction e (hi : point) :=
   [&& 0 <? (turn d).2, 0 <=? (turn d).1,
-      2 * (turn d).2 * bound_times (mass_form d) * kappa <=?
+      2 * (turn d).2 * bound_times (mass_form d) * kappa_in free friction hi <=?
         (turn d).1 * bound_at (mass_form d) * gain_unit d * hi.2 &
       2 * hi.1 * bound_times (mass_form d) * sumZ_of id e <=?
         bound_at (mass_form d) * hi.2 * gain_unit d].
 
-Definition check_wide :=
+Definition check_wide D :=
   [&& 0 <? (wide d).2, 0 <=? (wide d).1 &
-      (wide d).2 * width <=? (wide d).1 * (unit_of w * bound_d w)].
+      (wide d).2 * width_bound D <=? (wide d).1 * (unit_of w * bound_d w)].
 
 Definition check_root :=
   [&& 0 <? (root d).2, 0 <=? (root d).1 &
@@ -137,12 +141,14 @@ Definition check_root :=
       ((root d).2 * (root d).2 * (bound_c w * (c * unit_length s)) <=?
        (root d).1 * (root d).1 * bound_d w)].
 
-Definition check_shapes :=
+Definition check_shapes free friction mass mass_friction :=
   let n := (free_number s + size (particles s))%N in
   let small rows := all (all (fun e => e.1 < n)%N) rows in
   [&& 0 <? gain_unit d, all (fun j => size (row_of (gain d) j) <= free_number s)%N sides,
-      small k_rows && small m_rows, small [seq k_friction j | j <- sides],
-      small [seq m_friction j | j <- sides] & symmetric_rows_sparse k_rows].
+      small free && small mass,
+      small [seq nth [::] friction (free_number s + j) | j <- sides],
+      small [seq nth [::] mass_friction (free_number s + j) | j <- sides] &
+      symmetric_rows_sparse free].
 
 (* An end at mu = e.1 / e.2; its tables are made once. *)
 Section End.
@@ -175,24 +181,27 @@ Definition check_end :=
       all (fun i => all (fun j => entry (end_form f) i j =? entry (end_form f) j i) sides) sides,
       all (fun i => 0 <=? nth 0 (end_slope f) i) sides &
       [&& all (fun i => all (below i) sides) sides, all steep sides,
-          size (end_factor f) == size (particles s) &
+          size (end_rows f) == size (particles s) &
           covered form_entry (fun a b => end_gram f * late_dot a b) true
-            (zip sides (end_factor f))]].
+            (zip sides (end_rows f))]].
 
 End End.
 
 Definition check_stable (lo hi : point) (low high : stable_end) :=
-  let D := blocks_of mu_pencil in
+  let Q := mu_pencil in
+  let D := blocks_of Q in
   let P := condensed D w in
-  let turned := turned_rows in
-  let sizes := [seq form_size j | j <- sides] in
+  let k := symmetric_form (rows_a Q) in
+  let m := m_rows in
+  let mass_friction := rows_b friction_pencil in
+  let turned := turned_in m mass_friction in
+  let sizes := [seq form_size D j | j <- sides] in
   let n := (free_number s + size (particles s))%N in
-  [&& system_wellformed s Mu, wellformed mu_pencil, free_rows_constant mu_pencil,
-      check_elimination D w &
-      [&& ordered lo hi, 0 <? hi.2, check_shapes,
-          (0 <? bound_at (mass_form d)) && bounded_rows n m_rows (mass_form d) &
-          [&& check_turn hi, check_wide, check_root, check_end P turned sizes lo low &
-              check_end P turned sizes hi high]]].
+  [&& system_wellformed s Mu, wellformed Q, free_rows_constant Q, check_elimination D w &
+      [&& ordered lo hi, 0 <? hi.2, check_shapes k (rows_b Q) m mass_friction,
+          (0 <? bound_at (mass_form d)) && bounded_rows n m (mass_form d) &
+          [&& check_turn k (rows_b Q) turned hi, check_wide D, check_root,
+              check_end P turned sizes lo low & check_end P turned sizes hi high]]].
 
 End Checker.
 
@@ -392,13 +401,15 @@ Lemma shaped : shapes D w.
 Proof. by case/and5P: ok => _ _ _ /andP[]. Qed.
 
 Lemma checked_rest :
-  [/\ ordered lo hi, (0 <? hi.2)%Z, check_shapes s d,
+  [/\ ordered lo hi, (0 <? hi.2)%Z,
+      check_shapes s d (k_rows s) (rows_b Q) (m_rows s) (rows_b (friction_pencil s)),
       (0 <? bound_at (mass_form d))%Z && bounded_rows n (m_rows s) (mass_form d) &
-      [&& check_turn s d hi, check_wide s w d, check_root c s w d,
+      [&& check_turn s d (k_rows s) (rows_b Q) (turned_rows s d) hi, check_wide s w d D,
+          check_root c s w d,
           check_end c s w d (condensed D w) (turned_rows s d)
-            [seq form_size s w d j | j <- si] lo low &
+            [seq form_size s w d D j | j <- si] lo low &
           check_end c s w d (condensed D w) (turned_rows s d)
-            [seq form_size s w d j | j <- si] hi high]].
+            [seq form_size s w d D j | j <- si] hi high]].
 Proof. by case/and5P: ok => _ _ _ _ /and5P[]. Qed.
 
 Lemma gu0 : 0 < gu.
@@ -462,7 +473,7 @@ Definition ee j : R := turned j / gu.
 
 Lemma turned_ge0 j : 0 <= turned j.
 Proof.
-rewrite /turned_rows; have [lt_j|ge_j] := ltnP j ns; last first.
+rewrite /turned_rows /turned_in; have [lt_j|ge_j] := ltnP j ns; last first.
   by rewrite nth_default ?size_map ?size_iota.
 rewrite (nth_map 0%N) ?size_iota // /sum_abs.
 by rewrite (toR_norm1 R (leqnn _)) sumr_ge0.
@@ -471,7 +482,7 @@ Qed.
 Lemma sums_e j : j \in si -> \sum_(i <- ix) `|EE j i| <= ee j.
 Proof.
 move=> Hj; have [_ sm _ sn _] := small_rows; have := Hj; rewrite mem_iota add0n => /= lt_j.
-rewrite /ee /turned_rows (nth_map 0%N) ?size_iota // nth_iota // ler_pdivl_mulr ?gu0 //.
+rewrite /ee /turned_rows /turned_in (nth_map 0%N) ?size_iota // nth_iota // ler_pdivl_mulr ?gu0 //.
 rewrite (toR_sum_abs R (corrected_small _ (sn _ Hj) sm)) mulr_suml.
 apply: sum_le => i _; rewrite -corrected_lookup // normrM (gtr0_norm gu0) mulrC.
 exact: lexx.
@@ -541,7 +552,7 @@ have [_ _ _ _ /and5P[/and4P[t2 t1 _ small] _ _ _ _]] := checked_rest.
 have {}t2 : 0 < toR (turn d).2 :> R by rewrite toR_gt0.
 split=> //; first by apply: divr_ge0; [rewrite toR_ge0 | apply: ltW].
 move: small; rewrite -(toR_le R) !toRM [toR 2%Z](_ : _ = 2%:R) // (toR_sumZ_of R 0%Z).
-by rewrite /turned_rows size_map size_iota.
+by rewrite /turned_rows /turned_in size_map size_iota.
 Qed.
 
 Lemma hi2 : 0 < toR hi.2 :> R.
@@ -589,7 +600,7 @@ Lemma kappaP : \sum_(i <- ix) \sum_(j <- ix) `|KK i j| +
 Proof.
 have [_ _ _ _ /and5P[/and4P[t2 t1 big _] _ _ _ _]] := checked_rest.
 have {}t2 : 0 < toR (turn d).2 :> R by rewrite toR_gt0.
-move: big; rewrite -(toR_le R) !toRM toRD !toRM [toR 2%Z](_ : _ = 2%:R) // -sums_k toR_sides.
+move: big; rewrite /kappa_in -(toR_le R) !toRM toRD !toRM [toR 2%Z](_ : _ = 2%:R) // -sums_k toR_sides.
 under [X in _ + _ * X]eq_big_seq => j Hj do rewrite -sums_c //.
 rewrite -mulr_sumr; set k := \sum_(i <- ix) _; set cs := \sum_(j <- si) _ => big.
 have cs0 : 0 <= cs by apply: sumr_ge0 => j _; apply: sumr_ge0.
@@ -653,8 +664,8 @@ by rewrite !nth_iota.
 Qed.
 
 Notation vv j := (fun k : nat => toR (nth 0%Z (form_vector s w d j) k) : R).
-Notation ll j := (fun k : nat => toR (nth 0%Z (form_rest s w d j) k) : R).
-Notation sizes j := (toR (form_size s w d j) : R).
+Notation ll j := (fun k : nat => toR (nth 0%Z (form_rest w d D j) k) : R).
+Notation sizes j := (toR (form_size s w d D j) : R).
 
 Lemma size_vector j : size (form_vector s w d j) = nf.
 Proof. by rewrite size_map_from size_map size_iota. Qed.
@@ -695,7 +706,7 @@ Lemma sizesE j : sizes j = bd * (Energy.pair nf F (vv j) (vv j) +
   2%:R * \sum_(k <- fi) vv j k * ll j k) + bc * \sum_(k <- fi) ll j k ^+ 2.
 Proof.
 have sv := size_vector j; have le_v : (size (form_vector s w d j) <= nf)%N by rewrite sv.
-have le_l : (size (form_rest s w d j) <= nf)%N.
+have le_l : (size (form_rest w d D j) <= nf)%N.
   by rewrite size_map (size_residual positive) free_countE.
 rewrite /form_size toRD !toRM toRD toRM [toR 2%Z](_ : _ = 2%:R) //.
 rewrite !(toR_dot R _ le_v) (toR_dot R _ le_l); congr (_ * (_ + _) + _).
@@ -850,7 +861,7 @@ move=> Hj; have [_ _ _ _ /and5P[_ /and3P[w2 _ le] _ _ _]] := checked_rest.
 have {}w2 : 0 < toR (wide d).2 :> R by rewrite toR_gt0.
 apply: (@le_trans _ _ (\sum_(i <- si) width_of i)).
   rewrite (bigD1_seq j) ?iota_uniq //= ler_addl sumr_ge0 // => i _; exact: width_of_ge0.
-move: le; rewrite -(toR_le R) !toRM /width toR_sides => le.
+move: le; rewrite -(toR_le R) !toRM /width_bound toR_sides => le.
 have ub := mulr_gt0 U0 bd0; rewrite ler_pdivl_mulr // -(ler_pmul2r ub); apply: le_trans le.
 rewrite [_ * toR (wide d).2]mulrC -mulrA le_eqVlt; apply/orP; left; apply/eqP; congr (_ * _).
 rewrite mulr_suml; apply: sum_eq => i _.
@@ -918,7 +929,7 @@ Section End.
 
 Variables (e : point) (f : stable_end).
 Hypotheses (C0 : 0 < Cc) (p0 : 0 <= toR e.1 :> R) (q0 : 0 < toR e.2 :> R).
-Hypothesis checked : check_end c s w d P (turned_rows s d) [seq form_size s w d j | j <- si] e f.
+Hypothesis checked : check_end c s w d P (turned_rows s d) [seq form_size s w d D j | j <- si] e f.
 
 Notation p := (toR e.1 : R).
 Notation q := (toR e.2 : R).
@@ -964,7 +975,7 @@ Lemma end_slope_ge i : i \in si -> rho (p / q) i <= slope_of f i /\
 Proof.
 move=> Hi; have [u0 _ _ _ _] := end_parts; have [t2 _ r2 _ _] := fractions.
 case/and5P: checked => _ _ _ _ /andP[_ /and4P[_ /allP/(_ i Hi)/andP[rest0 le] _ _]].
-have nth_i : nth 0%Z [seq form_size s w d j | j <- si] i = form_size s w d i.
+have nth_i : nth 0%Z [seq form_size s w d D j | j <- si] i = form_size s w d D i.
   have := Hi; rewrite mem_iota add0n => /= lt_i.
   by rewrite (nth_map 0%N) ?size_iota // nth_iota.
 move: rest0 le; rewrite nth_i -(toR_ge0 R) -(toR_le R) !(toRM, toRB).
@@ -1021,14 +1032,14 @@ Lemma end_definite x : (exists2 i, i \in si & x i != 0) ->
 Proof.
 move=> nonzero; have [u0 t0 g0 sym _] := end_parts.
 case/and5P: checked => _ _ _ _ /andP[_ /and4P[_ _ /eqP sz cov]].
-have szz : size (zip si (end_factor f)) = ns by rewrite size_zip sz size_iota minnn.
-have at_row i : i \in si -> (nth (0%N, (0%N, [::])) (zip si (end_factor f)) i).1 = i.
+have szz : size (zip si (end_rows f)) = ns by rewrite size_zip sz size_iota minnn.
+have at_row i : i \in si -> (nth (0%N, (0%N, [::])) (zip si (end_rows f)) i).1 = i.
   by rewrite mem_iota add0n => /= lt_i; rewrite nth_zip ?size_iota ?sz //= nth_iota.
-have sym_rows : symmetric_rows (0%N, (0%N, [::])) (form_entry f) (zip si (end_factor f)).
+have sym_rows : symmetric_rows (0%N, (0%N, [::])) (form_entry f) (zip si (end_rows f)).
   move=> i j; rewrite szz => lt_i lt_j; rewrite !at_row ?mem_iota //= /form_entry.
   by rewrite sym ?mem_iota // [(nth _ _ i * _)%Z]Z.mul_comm.
 have [_ /(_ isT)] := covered_form x (@late_gram R _ _ (0%N, (0%N, [::])) _ g0) sym_rows cov.
-have formE : form (0%N, (0%N, [::])) (form_entry f) (zip si (end_factor f)) x =
+have formE : form (0%N, (0%N, [::])) (form_entry f) (zip si (end_rows f)) x =
     toR (end_times f) * (4%:R * one ^+ 2) *
     (\sum_(i <- si) \sum_(j <- si) x i * form_of f i j * x j -
       (\sum_(i <- si) slope_of f i * x i) ^+ 2 / 4%:R).

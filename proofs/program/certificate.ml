@@ -131,6 +131,30 @@ type presence = {
   presence_condensation : critical_condensation option;
   presence_pieces : presence_piece list }
 
+(* A file mceip-stability/1.  A matrix is its exponent and its rows. *)
+type stability_condensation = {
+  stable_sigma : Q.t;
+  stable_factor : factor_rows;
+  stable_right : int * Z.t list list;
+  stable_friction : int * Z.t list list;
+  stable_inertia : (int * Z.t list list) option }
+
+type stability_end = {
+  symmetric : Z.t list list;
+  bounds : Z.t list;
+  end_exponent : int;
+  end_factor : factor_rows }
+
+type stability = {
+  stable_digest : string;
+  stable_from : Q.t;  (* 0 if it is absent *)
+  stable_to : Q.t;
+  stable_mass_sigma : Q.t;
+  stable_mass_factor : factor_rows option;
+  stable_condensation : stability_condensation option;
+  stable_lower : stability_end;
+  stable_upper : stability_end }
+
 (* A file mceip-equilibrium/1, about a body under loads. *)
 type equilibrium = {
   loads_digest : string;
@@ -139,7 +163,12 @@ type equilibrium = {
   stated : Kernel.stated list;
   equilibrium_claim : claim }
 
-type file = Complete of t | Critical of critical | Presence of presence | Equilibrium of equilibrium
+type file =
+  | Complete of t
+  | Critical of critical
+  | Presence of presence
+  | Stability of stability
+  | Equilibrium of equilibrium
 
 (* An index that may name nothing.  A negative one is malformed: the kernel has none. *)
 let place item =
@@ -222,13 +251,14 @@ let read_factor item =
   { first = List.map place (list (field "first"));
     rows = List.map integers (list (field "rows")); exponent = exponent_of (field "exponent") }
 
+let read_matrix item =
+  let field = fields ["exponent"; "rows"] [] item in
+  exponent_of (field "exponent"), List.map integers (list (field "rows"))
+
 let read_coefficients item =
-  let coefficient m =
-    let field = fields ["exponent"; "rows"] [] m in
-    exponent_of (field "exponent"), List.map integers (list (field "rows")) in
   let l = list item in
   if List.length l > 8 then Problem.not_verified "more than 8 coefficients of an anchor";
-  List.map coefficient l
+  List.map read_matrix l
 
 let read_anchor_fields field =
   let reversed = match field "reversed" with
@@ -400,6 +430,29 @@ let read_presence document =
     presence_to = rational (field "to"); presence_condensation;
     presence_pieces = List.map read_presence_piece (list (field "pieces")) }
 
+let optional read = function Json.Null -> None | item -> Some (read item)
+
+let read_stability document =
+  let field = fields ["format"; "problem_sha256"; "to"; "mass_sigma"; "lower"; "upper"]
+      ["from"; "mass_factor"; "condensation"] document in
+  let condensation item =
+    let field = fields ["sigma"; "stiffness_factor"; "right"; "left_friction"] ["inertia"] item in
+    { stable_sigma = rational (field "sigma"); stable_factor = read_factor (field "stiffness_factor");
+      stable_right = read_matrix (field "right");
+      stable_friction = read_matrix (field "left_friction");
+      stable_inertia = optional read_matrix (field "inertia") } in
+  let end_of item =
+    let field = fields ["exponent"; "symmetric"; "bounds"; "factor"] [] item in
+    { symmetric = List.map integers (list (field "symmetric"));
+      bounds = integers (field "bounds"); end_exponent = exponent_of (field "exponent");
+      end_factor = read_factor (field "factor") } in
+  { stable_digest = text (field "problem_sha256");
+    stable_from = Option.value (optional rational (field "from")) ~default:Q.zero;
+    stable_to = rational (field "to"); stable_mass_sigma = rational (field "mass_sigma");
+    stable_mass_factor = optional read_factor (field "mass_factor");
+    stable_condensation = optional condensation (field "condensation");
+    stable_lower = end_of (field "lower"); stable_upper = end_of (field "upper") }
+
 let read_state item =
   let state = match item with
     | Object members -> Option.value (List.assoc_opt "state" members) ~default:Null
@@ -432,5 +485,6 @@ let read path =
   | Some (String "mceip-certificate/1") -> Complete (read_complete document)
   | Some (String "mceip-critical/1") -> Critical (read_critical document)
   | Some (String "mceip-presence/1") -> Presence (read_presence document)
+  | Some (String "mceip-stability/1") -> Stability (read_stability document)
   | Some (String "mceip-equilibrium/1") -> Equilibrium (read_equilibrium document)
   | _ -> malformed "a format of a certificate was expected"

@@ -571,6 +571,18 @@ let presence (problem : Scaling.t) (certificate : Certificate.presence) () =
   let kernel_pieces = timed "elaboration" (fun () -> Presence.build context anchored pieces) in
   Kernel.Presence (context.mu_low, context.mu_high, anchored.anchoring, kernel_pieces)
 
+(* What shows that an equilibrium is stable for mu in [from, to]. *)
+let stability (problem : Scaling.t) (certificate : Certificate.stability) () =
+  let context, _ = context_of_friction problem certificate.stable_digest
+      certificate.stable_condensation (certificate.stable_from, certificate.stable_to) None in
+  if context.zero.zero_particles <> [] then raise (Rejected "a particle in state zero");
+  if Q.sign certificate.stable_mass_sigma <= 0 then raise (Rejected "mass_sigma is not positive");
+  let positive (c : Certificate.stability_condensation) =
+    if Q.sign c.stable_sigma <= 0 then raise (Rejected "sigma is not positive") in
+  Option.iter positive certificate.stable_condensation;
+  timed "elaboration" (fun () ->
+      Stability.build context.zero.without_zero problem.common certificate)
+
 let pencil_of (problem : Scaling.t) =
   timed "pencil" (fun () -> Kernel.pencil_of_integral problem.question)
 

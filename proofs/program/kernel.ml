@@ -5596,7 +5596,7 @@ let check_given_rates c b lo hi w low high =
 
 type stable_end = { end_form : matrix; end_slope : Big_int_Z.big_int list;
                     end_unit : Big_int_Z.big_int; end_times : Big_int_Z.big_int;
-                    end_gram : Big_int_Z.big_int; end_factor0 : late_row list }
+                    end_gram : Big_int_Z.big_int; end_rows : late_row list }
 
 type stability = { gain : matrix; gain_unit : Big_int_Z.big_int; mass_form : form_bound;
                    turn : point; wide : point; root : point }
@@ -5636,16 +5636,6 @@ let k_rows s =
 let m_rows s =
   symmetric_form s (mass_pencil s).rows_b
 
-(** val k_friction : system -> int -> (int * Big_int_Z.big_int) list **)
-
-let k_friction s j =
-  nth [] (mu_pencil s).rows_b (addn (free_number s) j)
-
-(** val m_friction : system -> int -> (int * Big_int_Z.big_int) list **)
-
-let m_friction s j =
-  nth [] (friction_pencil s).rows_b (addn (free_number s) j)
-
 (** val corrected_row :
     stability -> sparse_row list -> sparse_row -> Big_int_Z.big_int list -> sparse_row **)
 
@@ -5654,15 +5644,12 @@ let corrected_row d free0 row g =
     (flatten
       (map0 (fun e -> times_row (Big_int_Z.minus_big_int (fst e)) (snd e)) (zip g free0)))
 
-(** val k_corrected : system -> stability -> int -> sparse_row **)
+(** val corrected_at :
+    system -> stability -> sparse_row list -> sparse_row list -> int -> sparse_row **)
 
-let k_corrected s d j =
-  corrected_row d (take (free_number s) (k_rows s)) (k_friction s j) (row_of d.gain j)
-
-(** val m_corrected : system -> stability -> int -> sparse_row **)
-
-let m_corrected s d j =
-  corrected_row d (take (free_number s) (m_rows s)) (m_friction s j) (row_of d.gain j)
+let corrected_at s d free0 friction j =
+  corrected_row d (take (free_number s) free0) (nth [] friction (addn (free_number s) j))
+    (row_of d.gain j)
 
 (** val sum_abs : sparse_row -> Big_int_Z.big_int **)
 
@@ -5674,10 +5661,22 @@ let sum_abs row =
 let sumZ_of f l =
   foldr (fun x sum0 -> Big_int_Z.add_big_int (f x) sum0) Big_int_Z.zero_big_int l
 
-(** val turned_rows : system -> stability -> Big_int_Z.big_int list **)
+(** val turned_in :
+    system -> stability -> sparse_row list -> sparse_row list -> Big_int_Z.big_int list **)
 
-let turned_rows s d =
-  map0 (fun j -> sum_abs (m_corrected s d j)) (iota 0 (size s.particles))
+let turned_in s d free0 friction =
+  map0 (fun j -> sum_abs (corrected_at s d free0 friction j)) (iota 0 (size s.particles))
+
+(** val kappa_in :
+    system -> stability -> sparse_row list -> sparse_row list -> point -> Big_int_Z.big_int **)
+
+let kappa_in s d free0 friction hi =
+  Big_int_Z.add_big_int
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int d.gain_unit (snd hi))
+      (sumZ_of sum_abs free0))
+    (Big_int_Z.mult_big_int (fst hi)
+      (sumZ_of (fun j -> sum_abs (corrected_at s d free0 friction j))
+        (iota 0 (size s.particles))))
 
 (** val form_vector : system -> elimination -> stability -> int -> Big_int_Z.big_int list **)
 
@@ -5689,44 +5688,37 @@ let form_vector s w d j =
         (nth Big_int_Z.zero_big_int g k))) 0
     (map0 (fun k -> nth Big_int_Z.zero_big_int (row_of w.left_vb j) k) (iota 0 (free_number s)))
 
-(** val form_rest : system -> elimination -> stability -> int -> Big_int_Z.big_int list **)
+(** val form_rest : elimination -> stability -> blocks -> int -> Big_int_Z.big_int list **)
 
-let form_rest s w d j =
+let form_rest w d d0 j =
   map0 (fun x -> Big_int_Z.mult_big_int d.gain_unit x)
-    (residual_column (blocks_of (mu_pencil s)) w (blocks_of (mu_pencil s)).sf_b w.left_vb j)
+    (residual_column d0 w d0.sf_b w.left_vb j)
 
-(** val form_size : system -> elimination -> stability -> int -> Big_int_Z.big_int **)
+(** val form_size : system -> elimination -> stability -> blocks -> int -> Big_int_Z.big_int **)
 
-let form_size s w d j =
+let form_size s w d d0 j =
   let v = form_vector s w d j in
-  let l = form_rest s w d j in
-  let fv = map0 (fun row -> sparse_dot row v) (blocks_of (mu_pencil s)).ff in
+  let l = form_rest w d d0 j in
+  let fv = map0 (fun row -> sparse_dot row v) d0.ff in
   Big_int_Z.add_big_int
     (Big_int_Z.mult_big_int w.bound_d
       (Big_int_Z.add_big_int (dot v fv)
         (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int) (dot v l))))
     (Big_int_Z.mult_big_int w.bound_c (dot l l))
 
-(** val width0 : system -> elimination -> Big_int_Z.big_int **)
+(** val width_bound : system -> elimination -> blocks -> Big_int_Z.big_int **)
 
-let width0 s w =
-  let d = blocks_of (mu_pencil s) in
+let width_bound s w d =
   sumZ_of (fun j ->
     Big_int_Z.add_big_int (Big_int_Z.mult_big_int w.bound_d (norm1 (row_of w.right_w j)))
       (Big_int_Z.mult_big_int w.bound_c (norm1 (residual_column d w d.fs w.right_w j))))
     (iota 0 (size s.particles))
 
-(** val check_turn : system -> stability -> point -> bool **)
+(** val check_turn :
+    system -> stability -> sparse_row list -> sparse_row list -> Big_int_Z.big_int list ->
+    point -> bool **)
 
-let check_turn s d hi =
-  let e = turned_rows s d in
-  let kappa =
-    Big_int_Z.add_big_int
-      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int d.gain_unit (snd hi))
-        (sumZ_of sum_abs (k_rows s)))
-      (Big_int_Z.mult_big_int (fst hi)
-        (sumZ_of (fun j -> sum_abs (k_corrected s d j)) (iota 0 (size s.particles))))
-  in
+let check_turn s d free0 friction e hi =
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd d.turn))
     ((&&) (Z.leb Big_int_Z.zero_big_int (fst d.turn))
       ((&&)
@@ -5734,7 +5726,7 @@ let check_turn s d hi =
           (Big_int_Z.mult_big_int
             (Big_int_Z.mult_big_int
               (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
-                (snd d.turn)) d.mass_form.bound_times) kappa)
+                (snd d.turn)) d.mass_form.bound_times) (kappa_in s d free0 friction hi))
           (Big_int_Z.mult_big_int
             (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst d.turn) d.mass_form.bound_at)
               d.gain_unit) (snd hi)))
@@ -5746,12 +5738,12 @@ let check_turn s d hi =
           (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int d.mass_form.bound_at (snd hi))
             d.gain_unit))))
 
-(** val check_wide : system -> elimination -> stability -> bool **)
+(** val check_wide : system -> elimination -> stability -> blocks -> bool **)
 
-let check_wide s w d =
+let check_wide s w d d0 =
   (&&) (Z.ltb Big_int_Z.zero_big_int (snd d.wide))
     ((&&) (Z.leb Big_int_Z.zero_big_int (fst d.wide))
-      (Z.leb (Big_int_Z.mult_big_int (snd d.wide) (width0 s w))
+      (Z.leb (Big_int_Z.mult_big_int (snd d.wide) (width_bound s w d0))
         (Big_int_Z.mult_big_int (fst d.wide) (Big_int_Z.mult_big_int w.unit_of w.bound_d))))
 
 (** val check_root0 : Big_int_Z.big_int -> system -> elimination -> stability -> bool **)
@@ -5765,18 +5757,26 @@ let check_root0 c s w d =
             (Big_int_Z.mult_big_int w.bound_c (Big_int_Z.mult_big_int c s.unit_length)))
           (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst d.root) (fst d.root)) w.bound_d))))
 
-(** val check_shapes : system -> stability -> bool **)
+(** val check_shapes :
+    system -> stability -> (int * Big_int_Z.big_int) list list -> (int * Big_int_Z.big_int)
+    list list -> (int * Big_int_Z.big_int) list list -> (int * Big_int_Z.big_int) list list ->
+    bool **)
 
-let check_shapes s d =
+let check_shapes s d free0 friction mass0 mass_friction =
   let n = addn (free_number s) (size s.particles) in
   let small0 = fun rows -> all (all (fun e -> leq (Natural.succ (fst e)) n)) rows in
   (&&) (Z.ltb Big_int_Z.zero_big_int d.gain_unit)
     ((&&)
       (all (fun j -> leq (size (row_of d.gain j)) (free_number s)) (iota 0 (size s.particles)))
-      ((&&) ((&&) (small0 (k_rows s)) (small0 (m_rows s)))
-        ((&&) (small0 (map0 (fun j -> k_friction s j) (iota 0 (size s.particles))))
-          ((&&) (small0 (map0 (fun j -> m_friction s j) (iota 0 (size s.particles))))
-            (symmetric_rows_sparse (k_rows s))))))
+      ((&&) ((&&) (small0 free0) (small0 mass0))
+        ((&&)
+          (small0
+            (map0 (fun j -> nth [] friction (addn (free_number s) j))
+              (iota 0 (size s.particles))))
+          ((&&)
+            (small0
+              (map0 (fun j -> nth [] mass_friction (addn (free_number s) j))
+                (iota 0 (size s.particles)))) (symmetric_rows_sparse free0)))))
 
 (** val drag_times :
     stability -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int **)
@@ -5875,33 +5875,37 @@ let check_end0 c s w d p turned0 sizes e f =
                 (iota 0 (size s.particles)))
               ((&&) (all (steep c s w d turned0 sizes e f) (iota 0 (size s.particles)))
                 ((&&)
-                  (eq_op nat_eqType (Obj.magic size f.end_factor0) (Obj.magic size s.particles))
+                  (eq_op nat_eqType (Obj.magic size f.end_rows) (Obj.magic size s.particles))
                   (covered (form_entry f) (fun a b ->
                     Big_int_Z.mult_big_int f.end_gram (late_dot a b)) true
-                    (zip (iota 0 (size s.particles)) f.end_factor0)))))))))
+                    (zip (iota 0 (size s.particles)) f.end_rows)))))))))
 
 (** val check_stable :
     Big_int_Z.big_int -> system -> elimination -> stability -> point -> point -> stable_end ->
     stable_end -> bool **)
 
 let check_stable c s w d lo hi low high =
-  let d0 = blocks_of (mu_pencil s) in
+  let q = mu_pencil s in
+  let d0 = blocks_of q in
   let p = condensed d0 w in
-  let turned0 = turned_rows s d in
-  let sizes = map0 (fun j -> form_size s w d j) (iota 0 (size s.particles)) in
+  let k = symmetric_form s q.rows_a in
+  let m = m_rows s in
+  let mass_friction = (friction_pencil s).rows_b in
+  let turned0 = turned_in s d m mass_friction in
+  let sizes = map0 (fun j -> form_size s w d d0 j) (iota 0 (size s.particles)) in
   let n = addn (free_number s) (size s.particles) in
   (&&) (system_wellformed s Mu)
-    ((&&) (wellformed (mu_pencil s))
-      ((&&) (free_rows_constant (mu_pencil s))
+    ((&&) (wellformed q)
+      ((&&) (free_rows_constant q)
         ((&&) (check_elimination d0 w)
           ((&&) (ordered lo hi)
             ((&&) (Z.ltb Big_int_Z.zero_big_int (snd hi))
-              ((&&) (check_shapes s d)
+              ((&&) (check_shapes s d k q.rows_b m mass_friction)
                 ((&&)
                   ((&&) (Z.ltb Big_int_Z.zero_big_int d.mass_form.bound_at)
-                    (bounded_rows (Obj.magic n) (m_rows s) d.mass_form))
-                  ((&&) (check_turn s d hi)
-                    ((&&) (check_wide s w d)
+                    (bounded_rows (Obj.magic n) m d.mass_form))
+                  ((&&) (check_turn s d k q.rows_b turned0 hi)
+                    ((&&) (check_wide s w d d0)
                       ((&&) (check_root0 c s w d)
                         ((&&) (check_end0 c s w d p turned0 sizes lo low)
                           (check_end0 c s w d p turned0 sizes hi high))))))))))))

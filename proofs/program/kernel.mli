@@ -1907,7 +1907,7 @@ val check_given_rates :
 
 type stable_end = { end_form : matrix; end_slope : Big_int_Z.big_int list;
                     end_unit : Big_int_Z.big_int; end_times : Big_int_Z.big_int;
-                    end_gram : Big_int_Z.big_int; end_factor0 : late_row list }
+                    end_gram : Big_int_Z.big_int; end_rows : late_row list }
 
 type stability = { gain : matrix; gain_unit : Big_int_Z.big_int; mass_form : form_bound;
                    turn : point; wide : point; root : point }
@@ -1926,38 +1926,41 @@ val k_rows : system -> sparse_row list
 
 val m_rows : system -> sparse_row list
 
-val k_friction : system -> int -> (int * Big_int_Z.big_int) list
-
-val m_friction : system -> int -> (int * Big_int_Z.big_int) list
-
 val corrected_row :
   stability -> sparse_row list -> sparse_row -> Big_int_Z.big_int list -> sparse_row
 
-val k_corrected : system -> stability -> int -> sparse_row
-
-val m_corrected : system -> stability -> int -> sparse_row
+val corrected_at :
+  system -> stability -> sparse_row list -> sparse_row list -> int -> sparse_row
 
 val sum_abs : sparse_row -> Big_int_Z.big_int
 
 val sumZ_of : ('a1 -> Big_int_Z.big_int) -> 'a1 list -> Big_int_Z.big_int
 
-val turned_rows : system -> stability -> Big_int_Z.big_int list
+val turned_in :
+  system -> stability -> sparse_row list -> sparse_row list -> Big_int_Z.big_int list
+
+val kappa_in :
+  system -> stability -> sparse_row list -> sparse_row list -> point -> Big_int_Z.big_int
 
 val form_vector : system -> elimination -> stability -> int -> Big_int_Z.big_int list
 
-val form_rest : system -> elimination -> stability -> int -> Big_int_Z.big_int list
+val form_rest : elimination -> stability -> blocks -> int -> Big_int_Z.big_int list
 
-val form_size : system -> elimination -> stability -> int -> Big_int_Z.big_int
+val form_size : system -> elimination -> stability -> blocks -> int -> Big_int_Z.big_int
 
-val width0 : system -> elimination -> Big_int_Z.big_int
+val width_bound : system -> elimination -> blocks -> Big_int_Z.big_int
 
-val check_turn : system -> stability -> point -> bool
+val check_turn :
+  system -> stability -> sparse_row list -> sparse_row list -> Big_int_Z.big_int list -> point
+  -> bool
 
-val check_wide : system -> elimination -> stability -> bool
+val check_wide : system -> elimination -> stability -> blocks -> bool
 
 val check_root0 : Big_int_Z.big_int -> system -> elimination -> stability -> bool
 
-val check_shapes : system -> stability -> bool
+val check_shapes :
+  system -> stability -> (int * Big_int_Z.big_int) list list -> (int * Big_int_Z.big_int) list
+  list -> (int * Big_int_Z.big_int) list list -> (int * Big_int_Z.big_int) list list -> bool
 
 val drag_times : stability -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int
 

@@ -69,6 +69,9 @@ let verify_eigenproblem demanded document problem_path certificate_path =
       | Presence certificate, _ ->
         refuse_window demanded "mceip-presence/1";
         [Evidence.presence integers certificate]
+      | Stability certificate, _ ->
+        refuse_window demanded "mceip-stability/1";
+        [Evidence.stability integers certificate]
       | Equilibrium _, _ ->
         Json.malformed "format: mceip-equilibrium/1 is about a body under loads, mceip-loads/1") in
   (match certificate, demanded with

@@ -47,14 +47,20 @@ let verdict_for_friction (problem : Problem.t) statement =
   print_newline ()
 
 (* At friction 0 a particle may slide both ways, of which (9) has one: the sentence leaves 0 out. *)
-let absent problem low high =
+let without_zero low high =
   let closed = show_interval low high in
-  let frictions =
-    if Q.sign (Problem.value_of low) > 0 then closed
-    else "(" ^ String.sub closed 1 (String.length closed - 1) in
+  if Q.sign (Problem.value_of low) > 0 then closed
+  else "(" ^ String.sub closed 1 (String.length closed - 1)
+
+let absent problem low high =
   verdict_for_friction problem
-    (Printf.sprintf "no solution for friction in %s, lambda2 in %s" frictions
+    (Printf.sprintf "no solution for friction in %s, lambda2 in %s" (without_zero low high)
        (show_interval Kernel.zero Kernel.infinity))
+
+let stable problem low high =
+  verdict_for_friction problem
+    (Printf.sprintf "stable for every mu in %s: small motions in these contact states lose energy \
+                     as the theorem of stability asks" (without_zero low high))
 
 let present problem low high =
   verdict_for_friction problem
@@ -214,6 +220,7 @@ let say (problem : Problem.t) statements =
     | AllAtInfinity all -> at_infinity problem slip all; beside, exit_code all
     | NoneForFriction (low, high) -> absent problem low high; beside, 0
     | OneForEachFriction (low, high) -> present problem low high; beside, 0
+    | StableForFriction (low, high) -> stable problem low high; beside, 0
     | EachExists _ | PointsSolve _ | OneMotionOfRates _ | InEquilibrium _ ->
       invalid_arg "statements of one certificate" in
   List.iter (claim problem) claims;
