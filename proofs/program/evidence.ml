@@ -95,6 +95,7 @@ let refusal (evidence : Kernel.evidence) (answer : Kernel.answered) =
   | Points _, _ -> Rejected "the kernel refuses a point"
   | Equilibrium (_, _, _, BoxAround _), _ -> no_witness "an equilibrium in a box"
   | Equilibrium _, _ -> Rejected "the kernel refuses the equilibrium"
+  | Stable _, _ -> Rejected "the kernel refuses the evidence of stability"
   | _ -> Rejected "the kernel refuses the tree"
 
 let window_of (certificate : Certificate.t) =
@@ -580,6 +581,9 @@ let stability (problem : Scaling.t) (certificate : Certificate.stability) () =
   let positive (c : Certificate.stability_condensation) =
     if Q.sign c.stable_sigma <= 0 then raise (Rejected "sigma is not positive") in
   Option.iter positive certificate.stable_condensation;
+  if certificate.stable_mass_factor = None
+  && not (Stability.diagonal_mass context.zero.without_zero) then
+    raise (Rejected "a mass that is not diagonal needs mass_factor");
   timed "elaboration" (fun () ->
       Stability.build context.zero.without_zero problem.common certificate)
 

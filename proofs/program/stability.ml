@@ -36,6 +36,11 @@ let mass_form unit sigma factor n =
   | None -> bound Z.one (List.init n (fun _ -> 0, []))
   | Some f -> require_factor n f; bound (two_to (2 * f.exponent)) (rows_from f)
 
+let diagonal_mass system =
+  let off i row = List.for_all (fun (j, v) -> j = i || Z.sign v = 0) row in
+  let summed row = List.map (fun (j, _) -> j, Kernel.lookup row j) row in
+  List.for_all Fun.id (List.mapi (fun i row -> off i (summed row)) (Kernel.m_rows system))
+
 let end_of ns (e : stability_end) =
   require ns ns e.symmetric;
   if List.compare_length_with e.bounds ns <> 0 then no_witness "bounds of another length";
