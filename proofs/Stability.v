@@ -600,7 +600,8 @@ Lemma kappaP : \sum_(i <- ix) \sum_(j <- ix) `|KK i j| +
 Proof.
 have [_ _ _ _ /and5P[/and4P[t2 t1 big _] _ _ _ _]] := checked_rest.
 have {}t2 : 0 < toR (turn d).2 :> R by rewrite toR_gt0.
-move: big; rewrite /kappa_in -(toR_le R) !toRM toRD !toRM [toR 2%Z](_ : _ = 2%:R) // -sums_k toR_sides.
+move: big; rewrite /kappa_in -(toR_le R) !toRM toRD !toRM [toR 2%Z](_ : _ = 2%:R) //.
+rewrite -sums_k toR_sides.
 under [X in _ + _ * X]eq_big_seq => j Hj do rewrite -sums_c //.
 rewrite -mulr_sumr; set k := \sum_(i <- ix) _; set cs := \sum_(j <- si) _ => big.
 have cs0 : 0 <= cs by apply: sumr_ge0 => j _; apply: sumr_ge0.

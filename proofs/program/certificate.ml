@@ -437,7 +437,8 @@ let read_stability document =
       ["from"; "mass_factor"; "condensation"] document in
   let condensation item =
     let field = fields ["sigma"; "stiffness_factor"; "right"; "left_friction"] ["inertia"] item in
-    { stable_sigma = rational (field "sigma"); stable_factor = read_factor (field "stiffness_factor");
+    { stable_sigma = rational (field "sigma");
+      stable_factor = read_factor (field "stiffness_factor");
       stable_right = read_matrix (field "right");
       stable_friction = read_matrix (field "left_friction");
       stable_inertia = optional read_matrix (field "inertia") } in

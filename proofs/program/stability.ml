@@ -1,7 +1,7 @@
 (* The elaborator of mceip-stability/1: from its matrices to the integers of the kernel. Untrusted.
 
-   Nothing is computed anew but bounds that follow from the matrices of the file: 2 kappa / m, w, and
-   1 + 1/sigma. *)
+   Nothing is computed anew but bounds that follow from the matrices of the file: 2 kappa / m, w,
+   and 1 + 1/sigma. *)
 
 open Certificate
 open Elaborate
