@@ -10,8 +10,8 @@
 
    [root_grows]: sqrt (y + c^2) grows at most twice as fast as u.  [slope_falls]: where u >= 2c/eps,
    y/u^2 + eps ln u does not grow; so [slide_bounded]: u is at most a multiple of its first value.
-   Theorem [growth_bounded]: if u(0) = 0 and y(0) <= c^2, then u <= C c at all times, where C depends
-   on eps only.
+   Theorem [growth_bounded]: if u(0) = 0 and y(0) <= c^2, then u <= C c at all times, where C
+   depends on eps only.
 
    Page: spec/stability.md, proof of (a).  Motions have accelerations that jump; for them the same
    holds of absolutely continuous y and u, which is cited and not proved here. *)
