@@ -45,6 +45,7 @@ let end_of ns (e : stability_end) =
   require ns ns e.symmetric;
   if List.compare_length_with e.bounds ns <> 0 then no_witness "bounds of another length";
   require_factor ns e.end_factor;
+  if e.end_exponent > 4_096 then Problem.not_verified "an exponent beyond the limits";
   let unit = two_to e.end_exponent in
   { Kernel.end_form = e.symmetric; end_slope = e.bounds; end_unit = unit;
     end_times = two_to (2 * e.end_factor.exponent); end_gram = Z.mul unit unit;
