@@ -2,9 +2,9 @@
 //!
 //! The formats of the files decide what is done. A certificate, of solutions and complete sets, of
 //! absence below a friction, of presence or of stability in an interval of friction, or of contact
-//! states, goes to the checker, which accepts or rejects it. Somebody's solutions are certified and checked one by
-//! one, or refuted ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly
-//! ([`plain`]).
+//! states, goes to the checker, which accepts or rejects it. Somebody's solutions are certified and
+//! checked one by one, or refuted ([`foreign`]). A solution file of a plain LCP or MCP is evaluated
+//! exactly ([`plain`]).
 
 pub(super) mod plain;
 
@@ -41,9 +41,9 @@ pub(super) struct Args {
     /// Problem file (mceip-problem/1), a body under loads (mceip-loads/1), or a plain LCP or MCP
     /// (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1, mceip-stability/1; of a
-    /// body under loads mceip-equilibrium/1), or somebody's solutions (mceip-solutions/1): each of those is
-    /// certified and checked, or refuted. Of a plain problem: its solution file
+    /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1, mceip-stability/1; of
+    /// a body under loads mceip-equilibrium/1), or somebody's solutions (mceip-solutions/1): each
+    /// of those is certified and checked, or refuted. Of a plain problem: its solution file
     /// (mceip-mcp-solution/1).
     certificate: PathBuf,
     /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper

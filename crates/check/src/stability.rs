@@ -21,8 +21,8 @@ pub struct AcceptedStability {
     pub from: Rational,
     /// Largest friction.
     pub to: Rational,
-    /// Does the mass couple no slip or stick particle with anything? Then the theorem is about every
-    /// motion that begins in contact, else about those that keep to the contact states.
+    /// Does the mass couple no slip or stick particle with anything? Then the theorem is about
+    /// every motion that begins in contact, else about those that keep to the contact states.
     pub is_of_every_motion: bool,
 }
 

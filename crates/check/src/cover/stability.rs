@@ -15,7 +15,8 @@
 //! Here Q - b b' / 4 has to be positive definite.
 //!
 //! The certificate shows this at both ends of an interval. Between them the same combinations of
-//! both Q and of both b will do: T - theta and the bounds of b are linear in mu, and b b' is convex.
+//! both Q and of both b will do: T - theta and the bounds of b are linear in mu, and b b' is
+//! convex.
 //!
 //! Input: the parts of the pencil, with the mass and without. T at both ends is the enclosure that
 //! all leaves use (`context`), with one anchor at 0.
@@ -75,9 +76,9 @@ pub(crate) fn check(
         }
     };
 
-    let lifted = Lifted::of(parts, free)?;
-    lifted.check_mass(certificate)?;
-    let work = FreeWork::of(&lifted, certificate)?;
+    let pencil = MotionPencil::of(parts, free)?;
+    pencil.check_mass(certificate)?;
+    let work = FreeWork::of(&pencil, certificate)?;
 
     let window = Window::all();
     let mut context = Context::new(&both, anchors.as_ref(), &window, 1);
@@ -136,7 +137,7 @@ fn at_zero<'a>(
 
 /// The pencil of the admissible motions, all rows in units of 1 / `common`; the free variables come
 /// first.
-struct Lifted {
+struct MotionPencil {
     free: usize,
     common: Integer,
     /// A0 and M0.
@@ -145,8 +146,8 @@ struct Lifted {
     friction: Vec<Row>,
 }
 
-impl Lifted {
-    fn of(parts: &FrictionParts, free: usize) -> Result<Lifted, CoverFault> {
+impl MotionPencil {
+    fn of(parts: &FrictionParts, free: usize) -> Result<MotionPencil, CoverFault> {
         let rows = [&parts.plain.rows, &parts.friction.rows];
         let entries = || rows.into_iter().flatten().flatten();
         let count = 2 * entries().count() as u64;
@@ -171,7 +172,7 @@ impl Lifted {
             rows.map(row).collect()
         };
 
-        Ok(Lifted {
+        Ok(MotionPencil {
             free,
             plain: lifted(&parts.plain.rows, 0),
             friction: lifted(&parts.friction.rows, free),
@@ -221,11 +222,11 @@ struct FreeWork {
 
 impl FreeWork {
     /// With the numbers of the certificate. Refuses accelerations that are too large.
-    fn of(lifted: &Lifted, certificate: &StabilityCertificate) -> Result<FreeWork, Reason> {
+    fn of(pencil: &MotionPencil, certificate: &StabilityCertificate) -> Result<FreeWork, Reason> {
         let condensation = certificate.condensation.as_ref();
         let inertia = condensation.and_then(|c| c.inertia.as_ref());
-        let slip = lifted.friction.len();
-        let reduced = FrictionLessFree::of(lifted, inertia)?;
+        let slip = pencil.friction.len();
+        let reduced = ReducedFriction::of(pencil, inertia)?;
 
         // e_i, and what all of them may be.
         let to = &certificate.to;
@@ -238,13 +239,13 @@ impl FreeWork {
         }
 
         // |q''| <= omega |q|.
-        let kappa = lifted.stiffness_norm() + to * reduced.stiffness_norm();
+        let kappa = pencil.stiffness_norm() + to * reduced.stiffness_norm();
         let omega = kappa * Rational::from_integer(2.into()) / &certificate.mass_sigma;
 
         let (of_slip, of_free) = match condensation {
             None => (Rational::one(), Rational::zero()),
             Some(condensation) => (
-                lifted.elimination_norm(condensation) + Rational::one(),
+                pencil.elimination_norm(condensation) + Rational::one(),
                 condensation.sigma.0.recip() + Rational::one(),
             ),
         };
@@ -255,7 +256,7 @@ impl FreeWork {
 
         let squares = match condensation {
             None => vec![Rational::zero(); slip],
-            Some(condensation) => reduced.squares(lifted, condensation),
+            Some(condensation) => reduced.squares(pencil, condensation),
         };
         Ok(FreeWork {
             squares,
@@ -271,7 +272,7 @@ impl FreeWork {
 }
 
 /// R - G K_f and M1 - G M_f, row by row, in units of 1 / (common 2^`exponent`).
-struct FrictionLessFree<'a> {
+struct ReducedFriction<'a> {
     /// G', by free variables.
     inertia: Option<&'a IntegerMatrix>,
     unit: Integer,
@@ -280,20 +281,20 @@ struct FrictionLessFree<'a> {
     rows: Vec<[Vec<Integer>; 2]>,
 }
 
-impl<'a> FrictionLessFree<'a> {
+impl<'a> ReducedFriction<'a> {
     fn of(
-        lifted: &Lifted,
+        pencil: &MotionPencil,
         inertia: Option<&'a IntegerMatrix>,
-    ) -> Result<FrictionLessFree<'a>, Reason> {
-        let slip = lifted.friction.len();
+    ) -> Result<ReducedFriction<'a>, Reason> {
+        let slip = pencil.friction.len();
         let exponent = inertia.map_or(0, |matrix| matrix.exponent);
         if let Some(matrix) = inertia {
-            check_matrix("inertia", matrix, lifted.free, slip)?;
+            check_matrix("inertia", matrix, pencil.free, slip)?;
         }
 
-        let order = lifted.plain.len();
+        let order = pencil.plain.len();
         let mut rows = Vec::with_capacity(slip);
-        for (i, friction) in lifted.friction.iter().enumerate() {
+        for (i, friction) in pencil.friction.iter().enumerate() {
             let mut stiffness = vec![Integer::zero(); order];
             let mut mass = vec![Integer::zero(); order];
             for (j, a, b) in friction {
@@ -301,7 +302,7 @@ impl<'a> FrictionLessFree<'a> {
                 mass[*j] += b << exponent;
             }
 
-            for (g, row) in lifted.plain[..lifted.free].iter().enumerate() {
+            for (g, row) in pencil.plain[..pencil.free].iter().enumerate() {
                 let Some(matrix) = inertia else { break };
                 let factor = matrix.rows[g].at(i);
                 for (j, a, b) in row {
@@ -313,9 +314,9 @@ impl<'a> FrictionLessFree<'a> {
             rows.push([stiffness, mass]);
         }
 
-        Ok(FrictionLessFree {
+        Ok(ReducedFriction {
             inertia,
-            unit: &lifted.common << exponent,
+            unit: &pencil.common << exponent,
             exponent,
             rows,
         })
@@ -339,15 +340,19 @@ impl<'a> FrictionLessFree<'a> {
     /// Upper bounds of C_i K_ff^-1 C_i'.
     ///
     /// With u_i = V_i - G_i' and l = C_i' - K_ff u_i it is u'(C_i' + l) + l' K_ff^-1 l.
-    fn squares(&self, lifted: &Lifted, condensation: &StabilityCondensation) -> Vec<Rational> {
+    fn squares(
+        &self,
+        pencil: &MotionPencil,
+        condensation: &StabilityCondensation,
+    ) -> Vec<Rational> {
         let v = &condensation.left_friction;
         let exponent = v.exponent.max(self.exponent);
         let sigma = &condensation.sigma.0;
-        let unit = &lifted.common << exponent;
+        let unit = &pencil.common << exponent;
 
         let mut squares = Vec::with_capacity(self.rows.len());
         for (i, [stiffness, _]) in self.rows.iter().enumerate() {
-            let u: Vec<Integer> = (0..lifted.free)
+            let u: Vec<Integer> = (0..pencil.free)
                 .map(|g| {
                     let of_inertia = self.inertia.map(|matrix| matrix.rows[g].at(i).into_owned());
                     let of_inertia = of_inertia.unwrap_or_default() << (exponent - self.exponent);
@@ -358,10 +363,10 @@ impl<'a> FrictionLessFree<'a> {
             // In units of 1 / (common 2^(2 exponent)), and squares of 1 / (common 2^exponent).
             let mut product = Integer::zero();
             let mut square = Integer::zero();
-            for (g, row) in lifted.plain[..lifted.free].iter().enumerate() {
+            for (g, row) in pencil.plain[..pencil.free].iter().enumerate() {
                 let c = &stiffness[g] << (exponent - self.exponent);
                 let mut residual = c.clone();
-                for (j, a, _) in row.iter().take_while(|(j, ..)| *j < lifted.free) {
+                for (j, a, _) in row.iter().take_while(|(j, ..)| *j < pencil.free) {
                     residual -= a * &u[*j];
                 }
 
@@ -377,7 +382,7 @@ impl<'a> FrictionLessFree<'a> {
     }
 }
 
-impl Lifted {
+impl MotionPencil {
     /// The sum of the absolute values of A0.
     fn stiffness_norm(&self) -> Rational {
         let entries = self.plain.iter().flatten().map(|(_, a, _)| a.abs());
