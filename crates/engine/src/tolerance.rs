@@ -323,3 +323,17 @@ pub(crate) const SMALLER_FRICTION: f64 = 1e-8;
 pub(crate) const FIRST_NEAR: f64 = 0.1;
 pub(crate) const NEARER: f64 = 0.3;
 pub(crate) const LEAST_NEAR: f64 = 2e-3;
+
+/// The smallest mu at which stability is tried, and the share to which the largest one with a proof
+/// is sought. Unit: of mu; itself. Reason: what is proved is printed with four digits.
+pub(crate) const LEAST_STABLE: f64 = 1e-6;
+pub(crate) const STABLE_END: f64 = 1e-4;
+
+/// What is taken off T for rounding in a proof of stability; the next, should the checker refuse.
+/// Unit: the largest entry of K_ss. Basis: sums in doubles of some hundred terms.
+pub(crate) const STABLE_MARGINS: [f64; 3] = [1e-10, 1e-8, 1e-6];
+
+/// The smallest pivot of a matrix taken for definite, and the smallest eigenvalue of projections
+/// onto definite ones. Unit: of a diagonal of 1. Reason: the checker decides on what is written.
+pub(crate) const LEAST_PIVOT: f64 = 1e-8;
+pub(crate) const LEAST_EIGENVALUE: f64 = 1e-5;

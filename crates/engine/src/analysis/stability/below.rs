@@ -9,12 +9,9 @@
 
 use crate::dense::UpperTriangle;
 use crate::search::complete::pieces::matrix::SquareMatrix;
+use crate::tolerance::{LEAST_EIGENVALUE, LEAST_PIVOT};
 use nalgebra::DMatrix;
 
-/// Smallest pivot of a matrix that is taken for definite, its diagonal scaled to 1.
-const LEAST_PIVOT: f64 = 1e-8;
-/// Smallest eigenvalue of the projections.
-const LEAST_EIGENVALUE: f64 = 1e-5;
 /// Projections at most, and what their eigenvalues may cost: orders cubed.
 const MOST_STEPS: usize = 2_000;
 const WORK: usize = 40_000_000;

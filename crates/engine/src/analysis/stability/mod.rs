@@ -28,6 +28,7 @@ use crate::run::Watch;
 use crate::search::complete::pieces::matrix::SquareMatrix;
 use crate::search::complete::pieces::skyline::Skyline;
 use crate::search::complete::rounding;
+use crate::tolerance::{LEAST_STABLE, STABLE_END, STABLE_MARGINS};
 use below::{definite_below, is_definite};
 use mceip_check::Proved;
 use mceip_check::certificate::{StabilityCertificate, StabilityEnd};
@@ -38,16 +39,9 @@ use numbers::RestingNumbers;
 
 /// Largest mu that is tried.
 const MOST: f64 = 64.0;
-/// Smallest mu that is tried.
-const LEAST: f64 = 1e-6;
-/// The end of the interval of mu is known to this share.
-const PRECISION: f64 = 1e-4;
 /// A P below the right side is looked for where it gives this share more.
 const WORTHWHILE: f64 = 1.01;
 
-/// What is taken off the right side for rounding, as a share of the largest entry of K_ss; the
-/// next, should the checker refuse.
-const MARGINS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// Bits of the largest entry of Q.
 const BITS: i32 = 60;
 
@@ -85,7 +79,7 @@ pub(super) fn stable_until(
     }
 
     let numbers = RestingNumbers::of(&families.own, MOST)?;
-    for margin in MARGINS {
+    for margin in STABLE_MARGINS {
         if watch.is_cancelled() {
             return None;
         }
@@ -130,7 +124,7 @@ enum Looked {
 impl StabilitySearch<'_> {
     /// The largest mu with a P, as a short decimal.
     fn largest_friction(&self) -> Option<Rational> {
-        let plain = self.bisect(LEAST, Looked::Itself)?;
+        let plain = self.bisect(LEAST_STABLE, Looked::Itself)?;
         let beyond = WORTHWHILE * plain;
         let largest = if beyond < MOST && self.at(beyond, Looked::Below).is_some() {
             self.bisect(beyond, Looked::Below).unwrap_or(plain)
@@ -141,7 +135,7 @@ impl StabilitySearch<'_> {
         four_digits_below(largest)
     }
 
-    /// The end of the interval, up to [`PRECISION`], from one of its points on.
+    /// The end of the interval, up to [`STABLE_END`], from one of its points on.
     fn bisect(&self, from: f64, looked: Looked) -> Option<f64> {
         self.at(from, looked)?;
         let mut low = from;
@@ -153,7 +147,7 @@ impl StabilitySearch<'_> {
             }
         }
 
-        while high - low > PRECISION * low {
+        while high - low > STABLE_END * low {
             let middle = 0.5 * (low + high);
             match self.at(middle, looked) {
                 Some(_) => low = middle,

@@ -94,9 +94,9 @@ impl RestingNumbers {
 
 /// What belongs to the free variables; `None` inside where there are none. Columns are over the
 /// free variables, one for each slip variable.
-struct FreeNumbers(Option<Eliminated>);
+struct FreeNumbers(Option<FreeParts>);
 
-struct Eliminated {
+struct FreeParts {
     sigma: Rational,
     stiffness_factor: Factor,
     /// K_fs and R_f'.
@@ -137,7 +137,7 @@ impl FreeNumbers {
             }
         }
 
-        Some(FreeNumbers(Some(Eliminated {
+        Some(FreeNumbers(Some(FreeParts {
             w: solved(&blocks.fs.constant),
             v: solved(&blocks.sf.slope),
             coupling: blocks.fs.constant,
@@ -157,7 +157,7 @@ impl FreeNumbers {
     fn eliminated_from(
         &self,
         mut block: SquareMatrix,
-        rows: impl Fn(&Eliminated) -> &Vec<Vec<f64>>,
+        rows: impl Fn(&FreeParts) -> &Vec<Vec<f64>>,
     ) -> SquareMatrix {
         let Some(free) = &self.0 else { return block };
         for (block_row, row) in block.iter_mut().zip(rows(free)) {
@@ -278,7 +278,7 @@ impl Inertia {
     }
 
     /// E = M1 - G M_f, exactly; the free columns come first.
-    fn residual(&self, mass: &Pencil) -> IntegralRows {
+    fn residual(&self, mass: &Pencil) -> InertiaResidual {
         let rows = InertiaRows::of(mass);
         let mut residual = rows.friction(INERTIA_EXPONENT);
         for (row, g_i) in residual.rows.iter_mut().zip(&self.0) {
@@ -304,7 +304,7 @@ impl Inertia {
 }
 
 /// Dense rows in units of 1 / `unit`.
-struct IntegralRows {
+struct InertiaResidual {
     rows: Vec<Vec<Integer>>,
     unit: Integer,
 }
@@ -347,7 +347,7 @@ impl InertiaRows {
     }
 
     /// M1 in units of 1 / (common 2^`exponent`).
-    fn friction(&self, exponent: u32) -> IntegralRows {
+    fn friction(&self, exponent: u32) -> InertiaResidual {
         let mut rows = vec![vec![Integer::zero(); self.order]; self.slip.len()];
         for (row, entries) in rows.iter_mut().zip(&self.slip) {
             for (j, m) in entries {
@@ -355,7 +355,7 @@ impl InertiaRows {
             }
         }
 
-        IntegralRows {
+        InertiaResidual {
             rows,
             unit: &self.common << exponent,
         }
