@@ -54,8 +54,8 @@ impl CertifiedAnswer {
     ///
     /// # Errors
     /// [`TestkitError::NotProved`] where the search leaves regions open or finds families,
-    /// [`TestkitError::NothingKnown`] for a best known list of nothing, [`TestkitError::Answer`] for
-    /// a list that is not right, [`TestkitError`] for a problem that a search refuses.
+    /// [`TestkitError::NothingKnown`] for a best known list of nothing, [`TestkitError::Answer`]
+    /// for a list that is not right, [`TestkitError`] for a problem that a search refuses.
     pub(super) fn of_draft(
         draft: &Draft,
         reduced: &Reduced,
