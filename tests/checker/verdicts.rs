@@ -8,11 +8,12 @@
 use crate::corpus_reader::{Entry, MALFORMED, entries};
 use mceip_check::certificate::{
     CRITICAL_FORMAT, Certificate, CriticalCertificate, EquilibriumCertificate, PRESENCE_FORMAT,
-    PresenceCertificate,
+    PresenceCertificate, STABILITY_FORMAT, StabilityCertificate,
 };
 use mceip_check::{
-    Accepted, AcceptedAbsence, AcceptedCover, AcceptedPresence, Rejected, SolutionFamily, audit,
-    audit_critical, check, check_critical, check_equilibrium, check_presence,
+    Accepted, AcceptedAbsence, AcceptedCover, AcceptedPresence, AcceptedStability, Rejected,
+    SolutionFamily, audit, audit_critical, check, check_critical, check_equilibrium,
+    check_presence, check_stability,
 };
 use mceip_exact::Interval;
 use mceip_model::file::{read_loads, read_problem, require_format};
@@ -33,6 +34,7 @@ enum Read {
     Certificate(Problem, Certificate),
     Critical(Problem, CriticalCertificate),
     Presence(Problem, PresenceCertificate),
+    Stability(Problem, StabilityCertificate),
     Equilibrium(Box<LoadedBody>, EquilibriumCertificate),
 }
 
@@ -59,6 +61,8 @@ fn read_case(entry: &Entry) -> Case {
         Read::Critical(problem(), CriticalCertificate::from_json(text).unwrap())
     } else if require_format(text, PRESENCE_FORMAT).is_ok() {
         Read::Presence(problem(), PresenceCertificate::from_json(text).unwrap())
+    } else if require_format(text, STABILITY_FORMAT).is_ok() {
+        Read::Stability(problem(), StabilityCertificate::from_json(text).unwrap())
     } else {
         Read::Certificate(problem(), Certificate::from_json(text).unwrap())
     };
@@ -78,6 +82,7 @@ fn verdicts() -> String {
             Read::Certificate(problem, certificate) => lines_of(name, problem, certificate),
             Read::Critical(problem, certificate) => critical_lines(name, problem, certificate),
             Read::Presence(problem, certificate) => presence_lines(problem, certificate),
+            Read::Stability(problem, certificate) => stability_lines(problem, certificate),
             Read::Equilibrium(body, certificate) => equilibrium_lines(body, certificate),
         };
         for line in lines {
@@ -132,6 +137,25 @@ fn presence_lines(problem: &Problem, certificate: &PresenceCertificate) -> Vec<S
     let line = match check_presence(problem, certificate) {
         Ok(AcceptedPresence { from, to, pieces }) => {
             format!("presence from {from} to {to}, pieces: {pieces}")
+        }
+        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
+    };
+    vec![line]
+}
+
+fn stability_lines(problem: &Problem, certificate: &StabilityCertificate) -> Vec<String> {
+    let line = match check_stability(problem, certificate) {
+        Ok(AcceptedStability {
+            from,
+            to,
+            is_of_every_motion,
+        }) => {
+            let of = if is_of_every_motion {
+                "every motion"
+            } else {
+                "motions that keep to their states"
+            };
+            format!("stability from {from} to {to} of {of}")
         }
         Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
     };

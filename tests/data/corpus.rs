@@ -5,7 +5,7 @@ use crate::support::{ACCEPTED, Entry, MALFORMED, REJECTED, UNDECIDED, entries};
 use libtest_mimic::{Failed, Trial};
 use mceip_check::certificate::{
     CRITICAL_FORMAT, Certificate, CriticalCertificate, EquilibriumCertificate, PRESENCE_FORMAT,
-    PresenceCertificate,
+    PresenceCertificate, STABILITY_FORMAT, StabilityCertificate,
 };
 use mceip_check::{Provable, check};
 use mceip_engine::lcp;
@@ -62,6 +62,8 @@ fn judge(entry: &Entry) -> (i32, String) {
         judge_kind::<CriticalCertificate>(&problem, certificate)
     } else if is_of_format(PRESENCE_FORMAT) {
         judge_kind::<PresenceCertificate>(&problem, certificate)
+    } else if is_of_format(STABILITY_FORMAT) {
+        judge_kind::<StabilityCertificate>(&problem, certificate)
     } else {
         judge_by(Certificate::from_json(certificate), |certificate| {
             let accepted = check(&problem, certificate).map_err(|e| e.reason.name())?;

@@ -4,8 +4,10 @@
 //! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block
 //! that was changed on the page alone, or a kind of evidence without an example, fails here.
 
-use mceip_check::certificate::{Certificate, CriticalCertificate, PresenceCertificate};
-use mceip_check::{check, check_critical, check_presence};
+use mceip_check::certificate::{
+    Certificate, CriticalCertificate, PresenceCertificate, StabilityCertificate,
+};
+use mceip_check::{check, check_critical, check_presence, check_stability};
 use mceip_exact::rational;
 use mceip_model::file::read_problem;
 use std::collections::BTreeSet;
@@ -34,7 +36,7 @@ fn names() -> BTreeSet<String> {
 }
 
 /// Kinds of evidence that the certificate of an example contains.
-const EVIDENCE: [&str; 18] = [
+const EVIDENCE: [&str; 20] = [
     "\"exact_solution\"",
     "\"lifted_solution\"",
     "\"enclosed_solution\"",
@@ -53,13 +55,15 @@ const EVIDENCE: [&str; 18] = [
     "\"left_friction\"",
     "\"regular\"",
     "\"mceip-presence/1\"",
+    "\"mceip-stability/1\"",
+    "\"symmetric\"",
 ];
 
 #[test]
 fn the_checker_gives_each_example_its_verdict() {
     let names = names();
-    let is_other =
-        |name: &str| name == "mcp" || name.starts_with("critical") || name.starts_with("presence");
+    let others = ["mcp", "critical", "presence", "stability"];
+    let is_other = |name: &str| others.iter().any(|other| name.starts_with(other));
     for name in names.iter().filter(|name| !is_other(name)) {
         let problem = read(&folder().join(format!("{name}.problem.json")));
         let certificate = read(&folder().join(format!("{name}.json")));
@@ -106,6 +110,24 @@ fn the_checker_accepts_each_presence_on_an_interval_of_friction() {
         let certificate = PresenceCertificate::from_json(&certificate).unwrap();
         let accepted = check_presence(&problem, &certificate).unwrap();
         assert_eq!((accepted.from, accepted.to), (from, to), "{name}");
+    }
+}
+
+#[test]
+fn the_checker_accepts_each_stability_on_an_interval_of_friction() {
+    for (name, to) in [("stability", 1), ("stability-free", 2)] {
+        let problem = read(&folder().join(format!("{name}.problem.json")));
+        let certificate = read(&folder().join(format!("{name}.json")));
+
+        let problem = read_problem(&problem, &folder()).unwrap();
+        let certificate = StabilityCertificate::from_json(&certificate).unwrap();
+        let accepted = check_stability(&problem, &certificate).unwrap();
+        assert_eq!(
+            (accepted.from, accepted.to),
+            (rational(0, 1), rational(to, 1)),
+            "{name}"
+        );
+        assert!(accepted.is_of_every_motion, "{name}");
     }
 }
 

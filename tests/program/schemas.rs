@@ -11,6 +11,7 @@ use crate::program::Folder;
 use jsonschema::Validator;
 use mceip_check::certificate::{
     Certificate, CriticalCertificate, EquilibriumCertificate, PresenceCertificate,
+    StabilityCertificate,
 };
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
 use mceip_engine::lcp::{FileError, read_mcp, read_solution};
@@ -488,6 +489,7 @@ fn the_corpus_is_valid() {
     let certificates = schema("mceip-certificate-1");
     let critical = schema("mceip-critical-1");
     let presence = schema("mceip-presence-1");
+    let stability = schema("mceip-stability-1");
     let equilibrium = schema("mceip-equilibrium-1");
     let loads = schema("mceip-loads-1");
     let mcp = schema("mceip-mcp-1");
@@ -525,6 +527,8 @@ fn the_corpus_is_valid() {
             &critical
         } else if format == "mceip-presence/1" {
             &presence
+        } else if format == "mceip-stability/1" {
+            &stability
         } else if is_loads {
             &equilibrium
         } else {
@@ -671,7 +675,7 @@ fn damaged_certificates_agree(tally: &mut Tally) {
     }
 }
 
-/// Absence below a friction and presence on an interval: the schemas list every kind of node.
+/// Absence, presence and stability on an interval of friction: the schemas list every kind of node.
 fn damaged_frictions_agree(tally: &mut Tally) {
     // That -1/2 is no integer follows from its meaning: a schema cannot divide.
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
@@ -685,6 +689,11 @@ fn damaged_frictions_agree(tally: &mut Tally) {
     let presences = ["presence", "presence-fold", "presence-free"].map(example);
     tally.agree(&schema("mceip-presence-1"), &presences, |text| {
         taken_unless(PresenceCertificate::from_json(text), |e| is_of_meaning(e))
+    });
+
+    let stabilities = ["stability", "stability-free"].map(example);
+    tally.agree(&schema("mceip-stability-1"), &stabilities, |text| {
+        taken_unless(StabilityCertificate::from_json(text), |e| is_of_meaning(e))
     });
 }
 
