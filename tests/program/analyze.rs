@@ -880,6 +880,11 @@ fn critical_mu_of_the_l_body() {
     assert!((&above - below) / &above <= rational(1, 100_000));
     absence_is_accepted_and_more_is_refused(&analysis);
 
+    // The consistent mass couples normals of slip particles with free degrees of freedom.
+    let stability = analysis.stability.as_ref().unwrap();
+    assert_eq!(stability.to, rational(2041, 10_000));
+    assert!(!stability.is_of_every_motion);
+
     // From the fold to the static threshold presence is proved but for a hundred-thousandth.
     let threshold = rational(28699, 10000);
     let mut open_from = above.clone();
@@ -901,9 +906,9 @@ fn critical_mu_of_the_l_body() {
 #[ignore = "takes a minute: cargo test --release --test program -- --ignored critical_mu_of"]
 fn critical_mu_of_the_block() {
     let block = Block::of_the_paper(MassKind::Consistent);
-    for (state, threshold) in [
-        (PublishedState::SeventeenSlip, 1.7048),
-        (PublishedState::FifteenSlip, 60.806),
+    for (state, threshold, stable) in [
+        (PublishedState::SeventeenSlip, 1.7048, 0.05098),
+        (PublishedState::FifteenSlip, 60.806, 0.07226),
     ] {
         let problem = state.problem(&block).unwrap();
         let system = system_of(&problem);
@@ -914,6 +919,8 @@ fn critical_mu_of_the_block() {
         assert!((to_f64(&above) / threshold - 1.0).abs() < 1e-5);
         assert!((&above - below) / above <= rational(1, 100_000));
         absence_is_accepted_and_more_is_refused(&analysis);
+        let stability = analysis.stability.as_ref().unwrap();
+        assert!((to_f64(&stability.to) / stable - 1.0).abs() < 1e-3);
     }
 }
 
