@@ -2176,6 +2176,7 @@ class Motions:
         g = [[Q(0)] * nf] * ns
         if obj is not None and obj.get("inertia") is not None:
             g = read_columns(obj["inertia"], nf, ns, "Length: inertia")
+        self.within_limits(p, parts, None if obj is None else obj.get("inertia"))
 
         def less(row, weights, matrix):
             """row - weights' matrix, of its free rows."""
@@ -2205,6 +2206,23 @@ class Motions:
             l = residual(given, u)
             self.a2[i] = dot(u, [x + y for x, y in zip(given, l)]) + dot(l, l) / sigma
         self.rest = 1 + 1 / sigma
+
+
+    @staticmethod
+    def within_limits(p, parts, inertia):
+        """The limits of 5.16 for stability."""
+        common, longest, count = 1, 0, 0
+        for i in range(p.n):
+            rows = [row for x in parts for row in (x.a[i], x.b[i])]
+            factor = lcm(1, *(v.denominator for row in rows for v in row.values()))
+            common = lcm(common, factor)
+            longest = max([longest, *(abs(v.numerator) * (factor // v.denominator) for row in rows for v in row.values())])
+            count += sum(len({j for row in (x.a[i], x.b[i]) for j, v in row.items() if v}) for x in parts)
+        bits = common.bit_length() + longest.bit_length()
+        demand(2 * count * bits <= 1 << 31, "Cover.TooLarge: the pencil with one denominator")
+        if inertia is not None:
+            bits += counter(inertia["exponent"]) + max((abs(integer(x)).bit_length() for row in inertia["rows"] for x in row), default=0)
+        demand(2 * len(p.s) * p.n * bits <= 1 << 31, "Cover.TooLarge: R - G K_f and M1 - G M_f")
 
 
 def stable_at(p, obj, ends, scales, motions, mu, name):

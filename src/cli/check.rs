@@ -233,8 +233,8 @@ fn stability(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliErro
                 "motions that keep to the contact states and begin"
             };
             let text = format!(
-                "STABLE for every friction in {begin}{from}, {to}]: {which} near the \
-                 equilibrium, in contact, stay near it (problem {digest})\n"
+                "STABLE for every friction in {begin}{from}, {to}]: {which} near an \
+                 equilibrium in these contact states, in contact, stay near it (problem {digest})\n"
             );
             (text, exit::DONE)
         }

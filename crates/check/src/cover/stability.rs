@@ -29,7 +29,7 @@ use super::psd::{SymmetricRows, semidefinite};
 use super::region::Region;
 use super::{check_size, family::row_bits};
 use crate::certificate::{
-    IntegerMatrix, StabilityCertificate, StabilityCondensation, StabilityEnd,
+    IntegerMatrix, IntegerRow, StabilityCertificate, StabilityCondensation, StabilityEnd,
 };
 use crate::pencil::{FrictionParts, Row};
 use crate::reason::Reason;
@@ -42,7 +42,8 @@ use std::rc::Rc;
 
 /// Largest binary exponent of a matrix.
 const MAX_EXPONENT: u32 = 1 << 12;
-/// Bits that the entries of the pencil, brought to one denominator, may take together.
+/// Bits that the entries of the pencil, brought to one denominator, may take together; and so those
+/// of the rows of friction less G times the free rows.
 const MAX_LIFTED_BITS: u64 = 1 << 31;
 
 /// The ends of the interval of friction, as messages name them.
@@ -140,6 +141,8 @@ fn at_zero<'a>(
 struct MotionPencil {
     free: usize,
     common: Integer,
+    /// Bits of an entry, at most.
+    entry_bits: u64,
     /// A0 and M0.
     plain: Vec<Row>,
     /// R and M1, by slip variables.
@@ -149,15 +152,16 @@ struct MotionPencil {
 impl MotionPencil {
     fn of(parts: &FrictionParts, free: usize) -> Result<MotionPencil, CoverFault> {
         let rows = [&parts.plain.rows, &parts.friction.rows];
-        let entries = || rows.into_iter().flatten().flatten();
+        let is_some = |(_, a, b): &&(usize, Integer, Integer)| !(a.is_zero() && b.is_zero());
+        let entries = || rows.into_iter().flatten().flatten().filter(is_some);
         let count = 2 * entries().count() as u64;
         let longest = largest_bits(entries().flat_map(|(_, a, b)| [a, b]));
 
         let mut common = Integer::one();
         for factor in &parts.plain.factor {
             common = common.lcm(factor);
-            let bits = count.saturating_mul(longest + common.bits());
-            CoverFault::at_most("bits of the pencil", MAX_LIFTED_BITS, bits)?;
+            let all_bits = count.saturating_mul(longest + common.bits());
+            CoverFault::at_most("bits of the pencil", MAX_LIFTED_BITS, all_bits)?;
         }
 
         let lifted = |rows: &[Row], first: usize| {
@@ -176,6 +180,7 @@ impl MotionPencil {
             free,
             plain: lifted(&parts.plain.rows, 0),
             friction: lifted(&parts.friction.rows, free),
+            entry_bits: longest + common.bits(),
             common,
         })
     }
@@ -192,7 +197,8 @@ impl MotionPencil {
         for (i, row) in self.plain.iter().enumerate() {
             let mut entries: BTreeMap<usize, Integer> = BTreeMap::new();
             for (j, _, mass) in row {
-                // M is symmetric in every problem, and M0 = T'MT with it.
+                // K and M are symmetric in every problem (`System`), and A0 = T'KT, M0 = T'MT
+                // with them.
                 entries.insert(*j, mass * m.denom());
             }
 
@@ -293,6 +299,15 @@ impl<'a> ReducedFriction<'a> {
         }
 
         let order = pencil.plain.len();
+        let longest = inertia.and_then(|matrix| matrix.rows.iter().map(IntegerRow::bits).max());
+        let entry_bits = pencil.entry_bits + u64::from(exponent) + longest.unwrap_or(0);
+        let all_bits = (2 * slip * order) as u64 * entry_bits;
+        CoverFault::at_most(
+            "bits of R - G K_f and M1 - G M_f",
+            MAX_LIFTED_BITS,
+            all_bits,
+        )?;
+
         let mut rows = Vec::with_capacity(slip);
         for (i, friction) in pencil.friction.iter().enumerate() {
             let mut stiffness = vec![Integer::zero(); order];
