@@ -61,7 +61,13 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
 
     if let Some(range) = absence_range(verdict.sentence) {
         let mut wrong = verdict.other_than(&name(problem, None), "");
-        wrong.extend(absence_falsehoods(problem, certificate, &range));
+        wrong.extend(absence_falsehoods(problem, certificate, "below", &range));
+        return wrong;
+    }
+    if let Some(range) = stability_range(verdict.sentence) {
+        let mut wrong = verdict.other_than(&name(problem, None), "");
+        // What is stable does not diverge.
+        wrong.extend(absence_falsehoods(problem, certificate, "to", &range));
         return wrong;
     }
     if let Some(range) = presence_range(verdict.sentence) {
@@ -151,7 +157,21 @@ fn left_out(asked: &Window, whole: &Window) -> String {
 /// [a, b] of "no solution for friction in [a, b], lambda2 in [0, infinity)"; (0, b] for a = 0.
 fn absence_range(sentence: &str) -> Option<Interval> {
     let range = sentence.strip_prefix("no solution for friction in ")?;
-    let range = range.strip_suffix(", lambda2 in [0, infinity)")?;
+    without_zero(range.strip_suffix(", lambda2 in [0, infinity)")?)
+}
+
+/// [a, b] of "stable for every mu in [a, b]: small motions ..."; (0, b] for a = 0.
+fn stability_range(sentence: &str) -> Option<Interval> {
+    let (range, means) = sentence
+        .strip_prefix("stable for every mu in ")?
+        .split_once(": ")?;
+    let meaning =
+        "small motions in these contact states lose energy as the theorem of stability asks";
+    without_zero(range).filter(|_| means == meaning)
+}
+
+/// [a, b], or [0, b] of "(0, b]".
+fn without_zero(range: &str) -> Option<Interval> {
     match range.strip_prefix("(0, ") {
         Some(end) => read_interval(&format!("[0, {end}")),
         None => read_interval(range).filter(|range| range.lo().is_positive()),
@@ -200,9 +220,15 @@ fn samples(range: &Interval) -> Vec<Rational> {
     PARTS.iter().map(at).filter(|mu| *mu != none).collect()
 }
 
-/// What the enumerator finds in a range of friction in which there is said to be nothing.
-fn absence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) -> Vec<String> {
-    if let Some(wrong) = wrong_range(certificate, ["from", "below"], range) {
+/// What the enumerator finds in a range of friction in which there is said to be nothing, and of
+/// which the file calls the upper end so.
+fn absence_falsehoods(
+    problem: &Problem,
+    certificate: &str,
+    upper: &str,
+    range: &Interval,
+) -> Vec<String> {
+    if let Some(wrong) = wrong_range(certificate, ["from", upper], range) {
         return vec![wrong];
     }
     let Body::System(system) = problem.body() else {
