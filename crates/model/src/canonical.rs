@@ -8,7 +8,7 @@
 //! anybody can do, the same mathematical problem; so a certificate that names the digest is bound
 //! to its matrices. `spec/formats.md` specifies the text, so that other programs can write it.
 
-use super::{Body, ContactState, Direction, LoadedBody, Particle, Pencil, Problem, System};
+use super::{Body, ContactState, Direction, LoadedBody, Particle, Pencil, Problem, Radii, System};
 use mceip_exact::Sparse;
 use num_traits::{One as _, Zero as _};
 use sha2::{Digest, Sha256};
@@ -97,6 +97,14 @@ fn write_body(out: &mut String, system: &System) {
     if let Some(mass) = system.mass() {
         write_matrix(out, "mass", mass);
     }
+
+    let Radii { stiffness, mass } = system.radii();
+    if let Some(radius) = stiffness {
+        write_matrix(out, "stiffness_radius", radius);
+    }
+    if let Some(radius) = mass {
+        write_matrix(out, "mass_radius", radius);
+    }
 }
 
 fn write_particle(out: &mut String, particle: &Particle) {
@@ -113,6 +121,7 @@ fn write_particle(out: &mut String, particle: &Particle) {
         normal_direction: _,
         frame: _,
         friction_factor,
+        friction_factor_range,
         // These two are no part of the question.
         reaction: _,
         name: _,
@@ -129,6 +138,9 @@ fn write_particle(out: &mut String, particle: &Particle) {
     // The factor 1 is not written: a problem without factors has the text it always had.
     if !friction_factor.is_one() {
         line(out, &format!("friction_factor {friction_factor}"));
+    }
+    if let Some([lo, hi]) = friction_factor_range {
+        line(out, &format!("friction_factor_range {lo} {hi}"));
     }
 }
 

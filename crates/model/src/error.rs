@@ -210,6 +210,43 @@ pub enum ModelError {
         /// The factor given.
         factor: Rational,
     },
+    /// The interval of the friction factor of a particle is none, or does not hold the factor.
+    #[error(
+        "E2: particle {particle}: expected friction_factor_range [lo, hi] with 0 <= lo < hi and \
+         lo <= {factor} <= hi, the friction_factor, got [{lo}, {hi}]"
+    )]
+    FrictionFactorRange {
+        /// The particle.
+        particle: usize,
+        /// The factor given.
+        factor: Rational,
+        /// The lower end.
+        lo: Rational,
+        /// The upper end.
+        hi: Rational,
+    },
+    /// A radius is negative.
+    #[error("E3: {what}: expected no negative entry, got {got} in row {row}, column {col}")]
+    RadiusNegative {
+        /// The matrix.
+        what: &'static str,
+        /// Its row.
+        row: usize,
+        /// Its column.
+        col: usize,
+        /// The entry.
+        got: Rational,
+    },
+    /// A radius of M without M.
+    #[error("E3: a radius of M, and no M; expected \"mass\" beside it")]
+    RadiusWithoutMass,
+    /// Radii of the data, where one body is asked for.
+    #[error(
+        "the data have radii, so that they stand for a set of bodies; expected one body here \
+         (analyze treats radii: spec/robust.md; without \"radii\" and \"friction_factor_range\" \
+         the problem is that of the data as given)"
+    )]
+    NotExact,
     /// A particle in contact with zero reaction, where it is not treated.
     #[error(
         "E9: particle {particle} has state \"zero\"; expected free, stick or slip \

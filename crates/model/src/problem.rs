@@ -81,6 +81,25 @@ impl Problem {
         &self.body
     }
 
+    /// The same question of the body as given, without radii.
+    #[must_use]
+    pub fn as_given(&self) -> Problem {
+        let mut given = self.clone();
+        if let Body::System(system) = &mut given.body {
+            *system = system.as_given();
+        }
+
+        given
+    }
+
+    /// Is it posed on one body, or on a pencil?
+    pub fn is_exact(&self) -> bool {
+        match &self.body {
+            Body::Pencil(_) => true,
+            Body::System(system) => system.is_exact(),
+        }
+    }
+
     /// The canonical text that the digest is taken of (`spec/formats.md`).
     pub fn canonical_text(&self) -> String {
         canonical::text(self)

@@ -13,6 +13,7 @@
 
 use super::ModelError;
 use super::pencil::{Unknown, require_definite, require_square, require_symmetric};
+use super::radii::{Radii, check_friction_range};
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
@@ -90,6 +91,8 @@ pub struct Particle {
     pub frame: Option<[[Rational; 2]; 2]>,
     /// The coefficient of friction of this particle over mu, > 0; 1 where all have the same.
     pub friction_factor: Rational,
+    /// The ends of the factors of the members, if it is not exact ([`Radii`]).
+    pub friction_factor_range: Option<[Rational; 2]>,
     /// The reaction at equilibrium, checked against (7) and the sign.
     pub reaction: Option<Reaction>,
     /// A name for people: no answer and no digest depends on it.
@@ -109,6 +112,7 @@ impl Particle {
             normal_direction: 1,
             frame: None,
             friction_factor: Rational::one(),
+            friction_factor_range: None,
             reaction: None,
             name: None,
         }
@@ -157,12 +161,16 @@ impl Particle {
 /// A mechanical system in frictional contact that satisfies section 2's hypotheses: K symmetric
 /// with K_ff positive definite, M symmetric positive definite where given. [`System::new`] proves
 /// that they are definite, [`System::assuming_definite`] does not.
+///
+/// Its data may have radii ([`System::with_radii`], [`Particle::friction_factor_range`]). Then it
+/// stands for a set of bodies, and what asks of one body refuses it ([`System::require_exact`]).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct System {
     stiffness: Sparse,
     mass: Option<Sparse>,
     friction: Option<Rational>,
     particles: Vec<Particle>,
+    radii: Radii,
 }
 
 impl System {
@@ -220,12 +228,28 @@ impl System {
         check_friction(friction.as_ref(), &particles)?;
         check_particles(n, &particles, friction.as_ref())?;
 
-        Ok(System {
+        let system = System {
             stiffness,
             mass,
             friction,
             particles,
-        })
+            radii: Radii::NONE,
+        };
+        system.with_radii(Radii::NONE)
+    }
+
+    /// The same with radii of K and M, in place of those it has.
+    ///
+    /// # Errors
+    /// [`ModelError`] for radii of another shape, that are not symmetric or negative, for a radius
+    /// of M without M, and for particles in contact with zero reaction, which are not treated.
+    pub fn with_radii(mut self, radii: Radii) -> Result<Self, ModelError> {
+        self.radii = radii.establish(self.dofs(), self.mass.is_some())?;
+        if !self.is_exact() {
+            self.require_no_zero()?;
+        }
+
+        Ok(self)
     }
 
     /// The same body with other contact states, without reactions, and this mu.
@@ -255,12 +279,13 @@ impl System {
             particle.reaction = None;
         }
 
-        System::new(
+        let system = System::new(
             self.stiffness.clone(),
             self.mass.clone(),
             friction,
             particles,
-        )
+        )?;
+        system.with_radii(self.radii.clone())
     }
 
     /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2.
@@ -310,6 +335,55 @@ impl System {
     /// mu, where given.
     pub fn friction(&self) -> Option<&Rational> {
         self.friction.as_ref()
+    }
+
+    /// How far K and M may be off.
+    pub fn radii(&self) -> &Radii {
+        &self.radii
+    }
+
+    /// Is it one body: are there no radii and no intervals of friction factors?
+    pub fn is_exact(&self) -> bool {
+        let mut particles = self.particles.iter();
+        self.radii.is_none() && particles.all(|p| p.friction_factor_range.is_none())
+    }
+
+    /// Refuses a system with radii, for what asks of one body.
+    ///
+    /// # Errors
+    /// [`ModelError::NotExact`].
+    pub fn require_exact(&self) -> Result<(), ModelError> {
+        if self.is_exact() {
+            Ok(())
+        } else {
+            Err(ModelError::NotExact)
+        }
+    }
+
+    /// The body as given, without its radii.
+    #[must_use]
+    pub fn as_given(&self) -> System {
+        let mut given = self.clone();
+        given.radii = Radii::NONE;
+        for particle in &mut given.particles {
+            particle.friction_factor_range = None;
+        }
+
+        given
+    }
+
+    /// The body in the middle of all members: K and M as given, the friction factors in the middle
+    /// of their intervals ([`Particle::friction_factor_ball`]). It has no reactions, which belong
+    /// to the factors as given.
+    #[must_use]
+    pub fn middle(&self) -> System {
+        let mut middle = self.as_given();
+        for (particle, given) in middle.particles.iter_mut().zip(&self.particles) {
+            (particle.friction_factor, _) = given.friction_factor_ball();
+            particle.reaction = None;
+        }
+
+        middle
     }
 
     /// The contact candidate particles in file order.
@@ -445,6 +519,7 @@ fn check_particles(
         }
         check_frame(index, particle)?;
         check_friction_factor(index, particle)?;
+        check_friction_range(index, particle)?;
         check_reaction(index, particle, friction)?;
     }
 

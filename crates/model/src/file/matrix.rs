@@ -9,16 +9,50 @@
 //!
 //! Indices count from 0. Any object may say `"read_as": "f64"`: then each number stands for the
 //! nearest double's exact value.
+//!
+//! The radius of a matrix ([`crate::Radii`]) stands in one of these forms; the first two are of its
+//! entries that are not zero:
+//!
+//! ```text
+//! {"absolute": "5e-5"}      this radius each
+//! {"relative": "1e-5"}      this share of the absolute value of each
+//! {"matrix": [[0, 1], [1, 0]]}
+//! ```
 
 use super::market::read_matrix_market;
 use super::order::require_order;
 use super::{Number, Word, beside, read_text};
-use crate::ModelError;
+use crate::{ModelError, Radii};
 use mceip_exact::{NumberError, Rational, Sparse};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeSet;
 use std::path::Path;
+
+/// The radius of a matrix: by a rule, or entry by entry.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum RawRadius {
+    Absolute(Number),
+    Relative(Number),
+    Matrix(RawMatrix),
+}
+
+impl RawRadius {
+    /// The radius of `matrix`, named `what` in complaints.
+    pub(super) fn build(
+        self,
+        matrix: &Sparse,
+        what: &'static str,
+        folder: &Path,
+    ) -> Result<Sparse, ModelError> {
+        match self {
+            RawRadius::Absolute(radius) => Ok(Radii::absolute(matrix, &radius.0)),
+            RawRadius::Relative(share) => Ok(Radii::relative(matrix, &share.0)),
+            RawRadius::Matrix(entries) => entries.build(what, folder),
+        }
+    }
+}
 
 /// The three spellings of a matrix.
 #[derive(Debug)]

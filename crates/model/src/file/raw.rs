@@ -4,13 +4,13 @@
 //! and nothing else; unknown fields are refused. Then `build` makes the types of the model out of
 //! them, which establish every precondition.
 
-use super::matrix::RawMatrix;
+use super::matrix::{RawMatrix, RawRadius};
 use super::{Number, Object, SystemFile, Word};
 use crate::{
-    Body, BodyNode, ContactState, Coordinates, ModelError, Particle, Pencil, Problem, Reaction,
-    System, Unknown, Window,
+    Body, BodyNode, ContactState, Coordinates, ModelError, Particle, Pencil, Problem, Radii,
+    Reaction, System, Unknown, Window,
 };
-use mceip_exact::{Rational, whole};
+use mceip_exact::{Rational, Sparse, whole};
 use num_traits::Zero;
 use serde::Deserialize;
 use std::path::Path;
@@ -55,6 +55,14 @@ struct RawSystem {
     mass: Option<RawMatrix>,
     friction: Option<Number>,
     particles: Vec<Object<RawParticle>>,
+    radii: Option<Object<RawRadii>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawRadii {
+    stiffness: Option<Object<RawRadius>>,
+    mass: Option<Object<RawRadius>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -79,6 +87,7 @@ pub(super) struct RawParticle {
     normal_direction: Option<i64>,
     frame: Option<[[Number; 2]; 2]>,
     friction_factor: Option<Number>,
+    friction_factor_range: Option<[Number; 2]>,
     reaction: Option<Object<RawReaction>>,
     name: Option<String>,
 }
@@ -218,8 +227,38 @@ impl RawSystem {
 
         let stiffness = self.stiffness.build("K", folder)?;
         let friction = self.friction.map(|number| number.0);
+        let radii = match self.radii {
+            Some(Object(radii)) => radii.build(&stiffness, mass.as_ref(), folder)?,
+            None => Radii::NONE,
+        };
 
-        System::new(stiffness, mass, friction, particles)
+        System::new(stiffness, mass, friction, particles)?.with_radii(radii)
+    }
+}
+
+impl RawRadii {
+    fn build(
+        self,
+        stiffness: &Sparse,
+        mass: Option<&Sparse>,
+        folder: &Path,
+    ) -> Result<Radii, ModelError> {
+        let of_mass = match (self.mass, mass) {
+            (None, _) => None,
+            (Some(Object(radius)), Some(mass)) => {
+                Some(radius.build(mass, "the radius of M", folder)?)
+            }
+            (Some(_), None) => return Err(ModelError::RadiusWithoutMass),
+        };
+        let of_stiffness = match self.stiffness {
+            None => None,
+            Some(Object(radius)) => Some(radius.build(stiffness, "the radius of K", folder)?),
+        };
+
+        Ok(Radii {
+            stiffness: of_stiffness,
+            mass: of_mass,
+        })
     }
 }
 
@@ -308,6 +347,7 @@ impl RawParticle {
             normal_direction: None,
             frame: None,
             friction_factor: None,
+            friction_factor_range: None,
             reaction: None,
             name: None,
         }
@@ -366,6 +406,9 @@ impl RawParticle {
             normal_direction,
             frame,
             friction_factor,
+            friction_factor_range: self
+                .friction_factor_range
+                .map(|ends| ends.map(|number| number.0)),
             reaction,
             name: self.name.filter(|name| !name.is_empty()), // an empty one is none
         })
@@ -417,6 +460,7 @@ fn sign(particle: usize, field: &'static str, value: i64) -> Result<i8, ModelErr
 mod tests {
     use super::super::{read_problem, write_problem};
     use super::*;
+    use mceip_exact::rational;
 
     fn system(particles: &str) -> String {
         format!(
@@ -473,6 +517,106 @@ mod tests {
             let refused = with(&format!(r#", "friction_factor": {factor}"#));
             assert!(matches!(refused, Err(ModelError::Json { .. })));
         }
+    }
+
+    const SLIP: &str = r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": 1}"#;
+
+    /// The system with its fields `radii` and what a particle has beside its state.
+    fn with_radii(radii: &str, of_particle: &str) -> Result<Problem, ModelError> {
+        let particle = SLIP.replace('}', &format!("{of_particle}}}"));
+        let text = system(&particle).replace(r#""mass""#, &format!(r#""radii": {radii}, "mass""#));
+        read(&text)
+    }
+
+    /// The three spellings of one radius, and what the digest covers.
+    #[test]
+    fn radii_are_read_and_written() {
+        let exact = read(&system(SLIP)).unwrap();
+        let absolute = with_radii(r#"{"stiffness": {"absolute": 0.5}}"#, "").unwrap();
+        assert!(exact.is_exact() && !absolute.is_exact());
+        assert_eq!(absolute.as_given(), exact);
+        assert_ne!(absolute.sha256(), exact.sha256());
+        let expected = "mass 2 2\n0 0 1\n1 1 1\nstiffness_radius 2 2\n0 0 1/2\n1 1 1/2\n";
+        assert!(absolute.canonical_text().ends_with(expected));
+
+        for same in [
+            r#"{"stiffness": {"relative": "1/4"}}"#,
+            r#"{"stiffness": {"matrix": [[0.5, 0], [0, 0.5]]}, "mass": {"absolute": 0}}"#,
+        ] {
+            assert_eq!(with_radii(same, "").unwrap(), absolute, "{same}");
+        }
+        assert_eq!(read(&write_problem(&absolute)).unwrap(), absolute);
+
+        let of_mass = with_radii(r#"{"mass": {"absolute": "1/8"}}"#, "").unwrap();
+        assert!(
+            of_mass
+                .canonical_text()
+                .contains("mass_radius 2 2\n0 0 1/8")
+        );
+        assert_eq!(with_radii("{}", "").unwrap(), exact);
+
+        let range = r#", "friction_factor_range": [0.5, 1]"#;
+        let range = with_radii("{}", range).unwrap();
+        assert!(!range.is_exact() && range.as_given() == exact);
+        assert!(
+            range
+                .canonical_text()
+                .contains("friction_factor_range 1/2 1\n")
+        );
+        assert_eq!(read(&write_problem(&range)).unwrap(), range);
+        let Body::System(system) = range.body() else {
+            panic!("a system")
+        };
+        let particle = &system.particles()[0];
+        assert_eq!(
+            particle.friction_factor_ball(),
+            (rational(3, 4), rational(1, 3))
+        );
+        assert_eq!(
+            system.middle().particles()[0].friction_factor,
+            rational(3, 4)
+        );
+    }
+
+    #[test]
+    fn radii_that_say_nothing_are_refused() {
+        let not_symmetric = r#"{"stiffness": {"matrix": [[0, 1], [0, 0]]}}"#;
+        let refused = with_radii(not_symmetric, "");
+        assert!(matches!(refused, Err(ModelError::NotSymmetric { .. })));
+
+        let negative = with_radii(r#"{"mass": {"absolute": -1}}"#, "");
+        assert!(matches!(
+            negative,
+            Err(ModelError::RadiusNegative { row: 0, .. })
+        ));
+
+        let larger = with_radii(r#"{"mass": {"matrix": [[1]]}}"#, "");
+        assert!(matches!(larger, Err(ModelError::Shape { .. })));
+
+        for malformed in [
+            "[]",
+            r#"{"friction": {"absolute": 1}}"#,
+            r#"{"stiffness": 1}"#,
+            r#"{"stiffness": {"absolute": 1, "relative": 1}}"#,
+            r#"{"stiffness": [[1, 0], [0, 1]]}"#,
+        ] {
+            let refused = with_radii(malformed, "");
+            assert!(
+                matches!(refused, Err(ModelError::Json { .. })),
+                "{malformed}"
+            );
+        }
+
+        for range in ["[1, 1]", "[2, 3]", "[-1, 1]", "[1, 0]"] {
+            let refused = with_radii("{}", &format!(r#", "friction_factor_range": {range}"#));
+            let is_range = matches!(refused, Err(ModelError::FrictionFactorRange { .. }));
+            assert!(is_range, "{range}: {refused:?}");
+        }
+
+        let zero = r#"{"tangential": 0, "normal": 1, "state": "zero"}"#;
+        let text =
+            system(zero).replace("\"mass\"", r#""radii": {"mass": {"absolute": 1}}, "mass""#);
+        assert!(read(&text).is_err());
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use super::{LOADS_FORMAT, LoadsFile, Number, PROBLEM_FORMAT, write_matrix_market};
 use crate::LoadedBody;
-use crate::{Body, ContactState, Coordinates, Particle, Pencil, Problem, System, Window};
+use crate::{Body, ContactState, Coordinates, Particle, Pencil, Problem, Radii, System, Window};
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One as _, Zero as _};
 use serde_json::{Map, Value, json};
@@ -185,7 +185,7 @@ fn write_system(system: &System) -> Value {
     Value::Object(out)
 }
 
-/// K, M and mu.
+/// K, M, their radii and mu.
 fn write_matrices(system: &System) -> Map<String, Value> {
     let mut out = Map::new();
     out.insert("stiffness".into(), write_sparse(system.stiffness()));
@@ -197,7 +197,23 @@ fn write_matrices(system: &System) -> Map<String, Value> {
         out.insert("friction".into(), json!(mu.to_string()));
     }
 
+    if !system.radii().is_none() {
+        out.insert("radii".into(), write_radii(system.radii()));
+    }
+
     out
+}
+
+fn write_radii(radii: &Radii) -> Value {
+    let Radii { stiffness, mass } = radii;
+    let mut out = Map::new();
+    for (field, radius) in [("stiffness", stiffness), ("mass", mass)] {
+        if let Some(radius) = radius {
+            out.insert(field.into(), json!({ "matrix": write_sparse(radius) }));
+        }
+    }
+
+    Value::Object(out)
 }
 
 fn write_particle(particle: &Particle) -> Value {
@@ -238,6 +254,10 @@ fn write_directions(particle: &Particle) -> Map<String, Value> {
     if !particle.friction_factor.is_one() {
         let factor = particle.friction_factor.to_string();
         out.insert("friction_factor".into(), json!(factor));
+    }
+    if let Some(range) = &particle.friction_factor_range {
+        let ends = range.each_ref().map(Rational::to_string);
+        out.insert("friction_factor_range".into(), json!(ends));
     }
 
     out

@@ -57,9 +57,10 @@ pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
 /// The pencil of a system for an unknown.
 ///
 /// # Errors
-/// [`ModelError::Missing`] if the system lacks what the unknown needs, or
-/// [`ModelError::NothingSlips`].
+/// [`ModelError::Missing`] if the system lacks what the unknown needs,
+/// [`ModelError::NothingSlips`], or [`ModelError::NotExact`].
 pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
+    system.require_exact()?;
     system.require_for(unknown)?;
     let changes = Changes::of(system);
     let stiffness = changes.blocks(system.stiffness());
@@ -84,8 +85,9 @@ pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, Model
 /// (K0, K1) and (M0, M1) of (16).
 ///
 /// # Errors
-/// [`ModelError::NothingSlips`].
+/// [`ModelError::NothingSlips`], [`ModelError::NotExact`].
 pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
+    system.require_exact()?;
     system.require_for(Unknown::Mu)?;
     let changes = Changes::of(system);
     let family = |matrix| {
