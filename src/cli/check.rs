@@ -128,6 +128,7 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
             from,
             below,
             leaves,
+            is_of_every_member,
         }) => {
             let digest = problem.sha256();
             let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
@@ -135,7 +136,8 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
             let begin = if from.is_zero() { "(" } else { "[" };
             let [from, below] = [&from, &below].map(number_text);
             let window = format!("friction in {begin}{from}, {below}], lambda2 in [0, infinity)");
-            let text = format!("ABSENT for {window}: no solution ({evidence})\n");
+            let of = members(is_of_every_member);
+            let text = format!("ABSENT for {window}: no solution{of} ({evidence})\n");
             (text, exit::DONE)
         }
         Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
@@ -143,6 +145,15 @@ fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
 
     print(&text)?;
     Ok(code)
+}
+
+/// Of which bodies something is said.
+fn members(is_of_every_member: bool) -> &'static str {
+    if is_of_every_member {
+        ", for every body within the radii of the data"
+    } else {
+        ""
+    }
 }
 
 /// The verdict on a certificate of contact states; `loads` is the text of the first file.
@@ -195,12 +206,18 @@ fn presence(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
 
     let (text, code) = match decided(|| check_presence(problem, &certificate)) {
-        Ok(AcceptedPresence { from, to, pieces }) => {
+        Ok(AcceptedPresence {
+            from,
+            to,
+            pieces,
+            is_of_every_member,
+        }) => {
+            let of = members(is_of_every_member);
             let digest = problem.sha256();
             let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
             let [from, to] = [&from, &to].map(number_text);
             let text = format!(
-                "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0 \
+                "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0{of} \
                  ({evidence})\n"
             );
             (text, exit::DONE)

@@ -111,13 +111,15 @@ fn critical_lines(name: &str, problem: &Problem, certificate: &CriticalCertifica
                 from,
                 below,
                 leaves,
+                is_of_every_member,
             } = accepted;
             let above = if from.is_zero() {
                 String::new()
             } else {
                 format!("from {from} ")
             };
-            vec![format!("absence {above}below {below}, leaves: {leaves}")]
+            let of = members(is_of_every_member);
+            vec![format!("absence {above}below {below}, leaves: {leaves}{of}")]
         }
         (Err(rejected), Ok(list)) => {
             vec![
@@ -133,10 +135,24 @@ fn critical_lines(name: &str, problem: &Problem, certificate: &CriticalCertifica
     }
 }
 
+fn members(is_of_every_member: bool) -> &'static str {
+    if is_of_every_member {
+        ", every member"
+    } else {
+        ""
+    }
+}
+
 fn presence_lines(problem: &Problem, certificate: &PresenceCertificate) -> Vec<String> {
     let line = match check_presence(problem, certificate) {
-        Ok(AcceptedPresence { from, to, pieces }) => {
-            format!("presence from {from} to {to}, pieces: {pieces}")
+        Ok(AcceptedPresence {
+            from,
+            to,
+            pieces,
+            is_of_every_member,
+        }) => {
+            let of = members(is_of_every_member);
+            format!("presence from {from} to {to}, pieces: {pieces}{of}")
         }
         Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
     };

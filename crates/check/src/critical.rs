@@ -10,7 +10,7 @@ use crate::cover;
 use crate::cover::walk::Audit;
 use crate::pencil::FrictionParts;
 use crate::reason::{Reason, Rejected};
-use crate::{LeafPlace, of_problem};
+use crate::{Covers, LeafPlace, of_problem};
 use mceip_exact::Rational;
 use mceip_model::{Body, Problem, Unknown};
 use num_traits::Signed;
@@ -25,6 +25,8 @@ pub struct AcceptedAbsence {
     pub below: Rational,
     /// Number of leaves that prove it.
     pub leaves: usize,
+    /// Is it proved of every member of a problem whose data have radii?
+    pub is_of_every_member: bool,
 }
 
 /// Checks a certificate of absence below a friction, exactly.
@@ -62,7 +64,7 @@ fn verdict(
     certificate: &CriticalCertificate,
     audit: Option<&Audit<'_>>,
 ) -> Result<AcceptedAbsence, Reason> {
-    of_problem(problem, &certificate.problem_sha256)?;
+    of_problem(problem, &certificate.problem_sha256, Covers::EveryMember)?;
     let parts = friction_parts(problem)?;
     let CriticalCertificate { from, below, .. } = certificate;
     if !below.is_positive() {
@@ -80,6 +82,7 @@ fn verdict(
         from: from.clone(),
         below: below.clone(),
         leaves,
+        is_of_every_member: !problem.is_exact(),
     })
 }
 

@@ -140,6 +140,7 @@ impl<'a> ClaimChecker<'a> {
     /// # Errors
     /// The [`Reason`] why the claim is rejected.
     pub fn verdict(&self, window: &Window, claim: &Claim) -> Result<AcceptedClaim, Reason> {
+        Covers::OneBody.treats(self.problem)?;
         match claim {
             Claim::ExactSolution(c) => exact_solution::check(&self.rows, window, c),
             Claim::LiftedSolution(c) => lifted_solution::check(self.problem, &self.rows, window, c),
@@ -256,7 +257,7 @@ fn has_unique_rates(
 
 /// Demands that the certificate belongs to this problem and claims something.
 fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reason> {
-    of_problem(problem, &certificate.problem_sha256)?;
+    of_problem(problem, &certificate.problem_sha256, Covers::OneBody)?;
     if certificate.unknown != problem.unknown() {
         return Err(Reason::Unknown {
             expected: problem.unknown().word(),
@@ -271,11 +272,31 @@ fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reaso
     Ok(())
 }
 
-/// Demands that a certificate names the digest of this problem.
-pub(crate) fn of_problem(problem: &Problem, named: &str) -> Result<(), Reason> {
+/// What the proof of a kind of certificate covers.
+///
+/// Soundness hangs on it: the proofs of one body read the data as given and know no radii.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Covers {
+    OneBody,
+    EveryMember,
+}
+
+impl Covers {
+    /// Refuses a problem with radii for a proof of one body.
+    fn treats(self, problem: &Problem) -> Result<(), Reason> {
+        if self == Covers::EveryMember || problem.is_exact() {
+            Ok(())
+        } else {
+            Err(Reason::Radii)
+        }
+    }
+}
+
+/// Demands that a certificate names the digest of this problem, and that its kind treats it.
+pub(crate) fn of_problem(problem: &Problem, named: &str, covers: Covers) -> Result<(), Reason> {
     let digest = problem.sha256();
     if named == digest {
-        return Ok(());
+        return covers.treats(problem);
     }
 
     Err(Reason::Digest {

@@ -37,6 +37,7 @@
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
+use num_traits::Signed as _;
 use std::collections::BTreeMap;
 
 /// One row of A + tB with denominators cleared: (column, coefficient in A, coefficient in B).
@@ -216,10 +217,40 @@ pub(super) struct FrictionParts {
     pub(super) friction: Rows,
     /// The same of the system in which the particles with zero reaction are free, if it has any.
     with_zero_free: Option<Box<FrictionParts>>,
+    /// How far the members of the problem may be from these, if it is posed on more than one body.
+    pub(super) radii: Option<MemberRadii>,
+}
+
+/// How far T0 and T1 of a member may be from those in the middle of all members: |p'R T| entry by
+/// entry with |p|, R and |T|, and a share of the friction rows.
+pub(super) struct MemberRadii {
+    /// Each row with the factor of its row in the middle.
+    pub(super) plain: Rows,
+    pub(super) friction: Rows,
+    /// By complementarity variable: the friction row of a member is that row with the data of the
+    /// member and the factor in the middle, times 1 + d with |d| at most this.
+    pub(super) relative: Vec<Rational>,
+}
+
+impl MemberRadii {
+    /// Those of T0 and of T1.
+    pub(super) fn of_parts(&self) -> [&Rows; 2] {
+        [&self.plain, &self.friction]
+    }
 }
 
 impl FrictionParts {
+    /// Those in the middle of all members ([`System::middle`]).
     pub(super) fn of(system: &System, mass: &Sparse) -> FrictionParts {
+        if system.is_exact() {
+            return FrictionParts::about(system, mass, None);
+        }
+
+        let radii = RadiiOfBody::of(system);
+        FrictionParts::about(&system.middle(), mass, Some(&radii))
+    }
+
+    fn about(system: &System, mass: &Sparse, radii: Option<&RadiiOfBody>) -> FrictionParts {
         let variables = Variables::of(system);
         let stiffness = system.stiffness();
         let order = variables.columns.len();
@@ -227,7 +258,13 @@ impl FrictionParts {
             plain: Rows::with_capacity(order),
             friction: Rows::with_capacity(order),
             with_zero_free: None,
+            radii: radii.map(|radii| MemberRadii {
+                plain: Rows::with_capacity(order),
+                friction: Rows::with_capacity(order),
+                relative: radii.relative.clone(),
+            }),
         };
+        let magnitudes = variables.trial.magnitudes();
 
         for (i, plain) in variables.rows.iter().enumerate() {
             let is_free = i < variables.free;
@@ -242,8 +279,28 @@ impl FrictionParts {
             let friction_a = variables.reduced(friction, stiffness);
             let friction_b = variables.reduced(friction, mass);
 
-            let all = [&plain_a, &plain_b, &friction_a, &friction_b];
-            let factor = common_denominator(all.into_iter().flatten().map(|(_, value)| value));
+            let reach =
+                |row: &Direction, radius: &Sparse| magnitudes.reduced(&absolute(row), radius);
+            let of_radii = radii.map(
+                |RadiiOfBody {
+                     stiffness, mass, ..
+                 }| {
+                    [
+                        [reach(plain, stiffness), reach(plain, mass)],
+                        [reach(friction, stiffness), reach(friction, mass)],
+                    ]
+                },
+            );
+
+            let middle = [&plain_a, &plain_b, &friction_a, &friction_b];
+            let beside = of_radii.iter().flatten().flatten();
+            let all = middle.into_iter().chain(beside).flatten();
+            let factor = common_denominator(all.map(|(_, value)| value));
+            if let (Some(radii), Some([plain, friction])) = (&mut parts.radii, &of_radii) {
+                for (rows, [a, b]) in [(&mut radii.plain, plain), (&mut radii.friction, friction)] {
+                    rows.push_multiple(a, b, factor.clone(), is_free);
+                }
+            }
             parts
                 .plain
                 .push_multiple(&plain_a, &plain_b, factor.clone(), is_free);
@@ -253,7 +310,7 @@ impl FrictionParts {
         }
 
         if !variables.halves.is_empty() {
-            let freed = FrictionParts::of(&system.with_zero_free(), mass);
+            let freed = FrictionParts::about(&system.with_zero_free(), mass, radii);
             parts.with_zero_free = Some(Box::new(freed));
         }
 
@@ -267,33 +324,88 @@ impl FrictionParts {
         self.with_zero_free.as_deref().unwrap_or(self)
     }
 
-    /// The pencil at a friction mu = p/q: q T0 + p T1 in the slip rows.
+    /// The pencil at a friction mu = p/q: q T0 + p T1 in the slip rows, times the denominator of
+    /// what the friction row of a member may be off.
     pub(super) fn at(&self, mu: &Rational) -> Rows {
-        let p = mu.numer();
-        let q = mu.denom();
+        let [p, q] = [mu.numer(), mu.denom()];
         let mut rows = self.plain.clone();
 
-        for i in 0..rows.order() {
-            if rows.is_free[i] {
-                continue;
-            }
-
-            let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
-            for (part, factor) in [(&self.plain, q), (&self.friction, p)] {
-                for (column, a, b) in &part.rows[i] {
-                    let entry = entries.entry(*column).or_default();
-                    entry.0 += a * factor;
-                    entry.1 += b * factor;
-                }
-            }
-
-            let row = entries.into_iter().map(|(column, (a, b))| (column, a, b));
-            rows.rows[i] = row.collect();
-            rows.factor[i] *= q;
+        for (slip, i) in self
+            .plain
+            .complementarity_variables()
+            .into_iter()
+            .enumerate()
+        {
+            let denominator = self.share(slip).denom().clone();
+            let plain = q * &denominator;
+            let friction = p * &denominator;
+            let parts = [
+                (&self.plain.rows[i], &plain),
+                (&self.friction.rows[i], &friction),
+            ];
+            rows.rows[i] = sum_of_rows(parts);
+            rows.factor[i] *= plain;
         }
 
         rows
     }
+
+    /// How far the pencil of a member at a friction mu may be from [`FrictionParts::at`], row by
+    /// row in its units: R0 + mu ((1 + d) R1 + d |T1|), where d is the share of the friction row.
+    /// `None` for one body.
+    pub(super) fn radius_at(&self, mu: &Rational) -> Option<Rows> {
+        let radii = self.radii.as_ref()?;
+        let [p, q] = [mu.numer(), mu.denom()];
+        let mut rows = radii.plain.clone();
+
+        for (slip, i) in self
+            .plain
+            .complementarity_variables()
+            .into_iter()
+            .enumerate()
+        {
+            let share = self.share(slip);
+            let magnitudes: Row = self.friction.rows[i]
+                .iter()
+                .map(|(j, a, b)| (*j, a.abs(), b.abs()))
+                .collect();
+            let parts = [
+                (&radii.plain.rows[i], &(q * share.denom())),
+                (
+                    &radii.friction.rows[i],
+                    &(p * (share.denom() + share.numer())),
+                ),
+                (&magnitudes, &(p * share.numer())),
+            ];
+            rows.rows[i] = sum_of_rows(parts);
+            rows.factor[i] *= q * share.denom();
+        }
+
+        Some(rows)
+    }
+
+    /// The share by which the friction row of a slip variable may be off.
+    fn share(&self, slip: usize) -> Rational {
+        match &self.radii {
+            Some(radii) => radii.relative[slip].clone(),
+            None => Rational::from_integer(0.into()),
+        }
+    }
+}
+
+/// The sum of rows, each times a factor.
+fn sum_of_rows<const N: usize>(parts: [(&Row, &Integer); N]) -> Row {
+    let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
+    for (row, factor) in parts {
+        for (column, a, b) in row {
+            let entry = entries.entry(*column).or_default();
+            entry.0 += a * factor;
+            entry.1 += b * factor;
+        }
+    }
+
+    let row = entries.into_iter().map(|(column, (a, b))| (column, a, b));
+    row.collect()
 }
 
 /// The rows of y = P' (K + lambda^2 M) T x, or of y = P' K T x with mu as the unknown.
@@ -405,6 +517,31 @@ impl Variables {
     }
 }
 
+/// R_K and R_M of a body, and how far its friction factors are from their middle.
+struct RadiiOfBody {
+    stiffness: Sparse,
+    mass: Sparse,
+    /// By slip particle.
+    relative: Vec<Rational>,
+}
+
+impl RadiiOfBody {
+    fn of(system: &System) -> RadiiOfBody {
+        let order = system.dofs();
+        let given = |radius: &Option<Sparse>| match radius {
+            Some(radius) => radius.clone(),
+            None => Sparse::zeros(order, order),
+        };
+
+        let slip = system.slip_particles().into_iter();
+        RadiiOfBody {
+            stiffness: given(&system.radii().stiffness),
+            mass: given(&system.radii().mass),
+            relative: slip.map(|(p, _)| p.friction_factor_ball().1).collect(),
+        }
+    }
+}
+
 /// T by rows: for each degree of freedom, the variables that move it and by how much.
 pub(super) struct Trial {
     moved_by: Vec<RationalRow>,
@@ -423,6 +560,13 @@ impl Trial {
         Trial { moved_by }
     }
 
+    /// |T|.
+    fn magnitudes(&self) -> Trial {
+        Trial {
+            moved_by: self.moved_by.iter().map(|row| absolute(row)).collect(),
+        }
+    }
+
     /// The row p' M T.
     pub(super) fn reduced(&self, p: &Direction, matrix: &Sparse) -> RationalRow {
         let mut row: BTreeMap<usize, Rational> = BTreeMap::new();
@@ -436,6 +580,13 @@ impl Trial {
 
         row.into_iter().collect()
     }
+}
+
+/// The absolute values of a direction or a row.
+fn absolute(row: &[(usize, Rational)]) -> Vec<(usize, Rational)> {
+    row.iter()
+        .map(|(index, value)| (*index, value.abs()))
+        .collect()
 }
 
 /// The direction times a number.

@@ -8,7 +8,7 @@
 use crate::certificate::PresenceCertificate;
 use crate::critical::friction_parts;
 use crate::reason::{Reason, Rejected};
-use crate::{cover, of_problem};
+use crate::{Covers, cover, of_problem};
 use mceip_exact::Rational;
 use mceip_model::Problem;
 use num_traits::Signed;
@@ -23,6 +23,8 @@ pub struct AcceptedPresence {
     pub to: Rational,
     /// Number of pieces that prove it.
     pub pieces: usize,
+    /// Is it proved of every member of a problem whose data have radii?
+    pub is_of_every_member: bool,
 }
 
 /// Checks a certificate of presence on an interval of friction, exactly.
@@ -33,7 +35,7 @@ pub fn check_presence(
     problem: &Problem,
     certificate: &PresenceCertificate,
 ) -> Result<AcceptedPresence, Rejected> {
-    of_problem(problem, &certificate.problem_sha256)?;
+    of_problem(problem, &certificate.problem_sha256, Covers::EveryMember)?;
     let parts = friction_parts(problem)?;
     parts
         .plain
@@ -50,5 +52,6 @@ pub fn check_presence(
         from: from.clone(),
         to: to.clone(),
         pieces: certificate.pieces.len(),
+        is_of_every_member: !problem.is_exact(),
     })
 }

@@ -150,6 +150,12 @@ pub enum Reason {
         /// Digest the certificate names.
         got: String,
     },
+    /// A kind of certificate that speaks of one body, of a problem with radii.
+    #[error(
+        "data: expected one body for this kind of certificate, got radii \
+         (absence below a friction and presence treat them)"
+    )]
+    Radii,
     /// The certificate was made for the other eigenproblem.
     #[error("unknown: expected {expected}, got {got}")]
     Unknown {

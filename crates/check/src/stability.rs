@@ -9,7 +9,7 @@ use crate::certificate::StabilityCertificate;
 use crate::critical::friction_parts;
 use crate::pencil::FrictionParts;
 use crate::reason::{Reason, Rejected};
-use crate::{cover, of_problem};
+use crate::{Covers, cover, of_problem};
 use mceip_exact::{Rational, Sparse};
 use mceip_model::{Body, ContactState, Problem, System};
 use num_traits::{Signed, Zero};
@@ -34,7 +34,7 @@ pub fn check_stability(
     problem: &Problem,
     certificate: &StabilityCertificate,
 ) -> Result<AcceptedStability, Rejected> {
-    of_problem(problem, &certificate.problem_sha256)?;
+    of_problem(problem, &certificate.problem_sha256, Covers::OneBody)?;
     let parts = friction_parts(problem)?;
     parts.plain.without_zero("stability")?;
 

@@ -1,6 +1,7 @@
 //! Numbers and matrices that are known up to a radius.
 
-use mceip_exact::Integer;
+use mceip_exact::{Integer, Rational};
+use num_integer::Integer as _;
 use num_traits::{Signed, Zero};
 
 /// Every number within `radius` of `center`.
@@ -44,6 +45,31 @@ pub(super) struct BallMatrix<N> {
 }
 
 impl BallMatrix<Integer> {
+    /// The zero matrix of this order.
+    pub(super) fn zero(order: usize) -> BallMatrix<Integer> {
+        let zero = vec![vec![Integer::zero(); order]; order];
+        BallMatrix {
+            m: zero.clone(),
+            r: zero,
+        }
+    }
+
+    /// The matrices with row i multiplied by 1 + d, |d| <= `shares[i]`.
+    pub(super) fn with_rows_off(&self, shares: &[Rational]) -> BallMatrix<Integer> {
+        let mut off = self.clone();
+        for ((m, r), share) in self.m.iter().zip(&mut off.r).zip(shares) {
+            if share.is_zero() {
+                continue;
+            }
+            for (m, r) in m.iter().zip(r) {
+                let largest = m.abs() + &*r;
+                *r += (largest * share.numer()).div_ceil(share.denom());
+            }
+        }
+
+        off
+    }
+
     /// The multiples by a factor that is not negative.
     pub(super) fn times(&self, factor: &Integer) -> BallMatrix<Integer> {
         self.combine(factor, self, &Integer::zero())

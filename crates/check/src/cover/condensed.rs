@@ -18,6 +18,10 @@
 //! *Reversed* anchors do the same with A and B, sigma and tau exchanged, in s = 1 / t:
 //! F(t) / t = B_ff + s A_ff >= (tau + s sigma) I.
 //!
+//! *Members.* Where the data have radii, the same holds of every member with what `spread` adds. Its
+//! hypotheses are demanded of every member: the row sums of the radii come off the diagonal of a
+//! matrix that is to be definite (Gershgorin).
+//!
 //! *Tail.* If sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite,
 //! then sym(A + tB) is definite for all t >= from, and x'(A + tB)x = x'y = 0 leaves x = 0 only.
 //!
@@ -34,8 +38,10 @@ use super::product::{
     Linear, LinearPart, NonzeroRows, part_of, row_of, row_times, times, transposed,
 };
 use super::psd::{SymmetricRows, semidefinite};
+use super::region::end;
+use super::spread::{Polynomials, Reach, Spread};
 use crate::certificate::{Anchor, Condensation, CriticalAnchor, Factor, IntegerMatrix, IntegerRow};
-use crate::pencil::{Row, Rows};
+use crate::pencil::{MemberRadii, Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -51,13 +57,43 @@ const BITS_OF_A_NUMBER: u64 = 512;
 /// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
 const NORM_BITS: u32 = 32;
 
-/// Checks the hypotheses and the limits of each anchor, for each part of the pencil: T, or T0 and
-/// T1 with T = T0 + mu T1.
+/// The pencil that is condensed.
+#[derive(Clone, Copy)]
+pub(super) struct PencilParts<'s, 'a> {
+    /// T, or T0 and T1 with T = T0 + mu T1.
+    pub(super) rows: &'s [&'a Rows],
+    /// How far those of a member may be off, where the data have radii.
+    pub(super) radii: Option<&'a MemberRadii>,
+    /// The pieces, which say what each anchor serves. They matter where there are radii.
+    pub(super) pieces: &'s [AnchoredPiece],
+}
+
+impl<'s, 'a> PencilParts<'s, 'a> {
+    /// Of one problem, whose data are exact.
+    pub(super) fn exact(rows: &'s [&'a Rows]) -> PencilParts<'s, 'a> {
+        PencilParts {
+            rows,
+            radii: None,
+            pieces: &[],
+        }
+    }
+}
+
+/// An interval of values and the anchor that it names.
+#[derive(Clone)]
+pub(super) struct AnchoredPiece {
+    pub(super) anchor: Option<usize>,
+    pub(super) lo: Rational,
+    /// `None` for infinity.
+    pub(super) hi: Option<Rational>,
+}
+
+/// Checks the hypotheses and the limits of each anchor, for each part of the pencil.
 ///
 /// The free rows of all parts are the same, and so are the hypotheses, W and r; rows are scaled
 /// alike.
 pub(super) fn of<'a, A: AnchorOfParts, T>(
-    parts: &[&Rows],
+    parts: PencilParts<'_, 'a>,
     condensation: &'a Condensation<A, T>,
 ) -> Result<Anchors<'a>, CoverFault> {
     let bounds = FreeBounds {
@@ -69,7 +105,8 @@ pub(super) fn of<'a, A: AnchorOfParts, T>(
 
     let mut anchors: Vec<Vec<AnchorPolynomials<'a>>> = Vec::new();
     for anchor in &condensation.anchors {
-        anchors.push((0..parts.len()).map(|part| anchor.of_part(part)).collect());
+        let of_parts = (0..parts.rows.len()).map(|part| anchor.of_part(part));
+        anchors.push(of_parts.collect());
     }
 
     with_anchors(parts, bounds, anchors)
@@ -77,46 +114,63 @@ pub(super) fn of<'a, A: AnchorOfParts, T>(
 
 /// The same with the bounds of F and, anchor by anchor, the polynomials W and V of each part.
 pub(super) fn with_anchors<'a>(
-    parts: &[&Rows],
+    parts: PencilParts<'_, 'a>,
     bounds: FreeBounds<'a>,
     anchors: Vec<Vec<AnchorPolynomials<'a>>>,
 ) -> Result<Anchors<'a>, CoverFault> {
-    let blocks = integral_blocks(parts);
-    check_hypotheses(&blocks[0], bounds)?;
+    let blocks = PartBlocks::of(parts.rows, parts.radii.map(MemberRadii::of_parts));
+    check_hypotheses(&blocks, bounds)?;
 
     let has_reversed = anchors.iter().any(|anchor| anchor[0].reversed);
-    let reversed: Vec<Rows> = if has_reversed && bounds.tau.is_positive() {
-        parts.iter().map(|rows| rows.reversed()).collect()
+    let reversed = if has_reversed && bounds.tau.is_positive() {
+        let rows: Vec<Rows> = parts.rows.iter().map(|rows| rows.reversed()).collect();
+        let radii = parts.radii.map(|r| r.of_parts().map(Rows::reversed));
+        let rows: Vec<&Rows> = rows.iter().collect();
+        PartBlocks::of(&rows, radii.as_ref().map(|radii| radii.each_ref()))
     } else {
-        Vec::new()
+        PartBlocks::default()
     };
 
     Anchors {
         bounds,
         blocks,
-        reversed: integral_blocks(&reversed.iter().collect::<Vec<_>>()),
+        reversed,
+        pieces: parts.pieces.to_vec(),
         anchors,
         memory: WorkBudget::of_anchors(0),
     }
     .within_limits()
 }
 
-/// The blocks of the parts of a pencil, row i of all parts divided by the same power of two.
-fn integral_blocks(parts: &[&Rows]) -> Vec<IntegralBlocks> {
-    let bits = row_bits(parts);
-    parts
-        .iter()
-        .map(|rows| IntegralBlocks::of(rows, &bits))
-        .collect()
+/// The blocks of the parts of a pencil, row i of all parts divided by the same power of two, and
+/// those of the radii in the same scale.
+#[derive(Default)]
+struct PartBlocks {
+    middle: Vec<IntegralBlocks>,
+    /// Empty where the data are exact.
+    radii: Vec<IntegralBlocks>,
+}
+
+impl PartBlocks {
+    fn of(parts: &[&Rows], radii: Option<[&Rows; 2]>) -> PartBlocks {
+        let bits = row_bits(parts);
+        let blocks = |rows: &&Rows| IntegralBlocks::of(rows, &bits);
+        PartBlocks {
+            middle: parts.iter().map(blocks).collect(),
+            radii: radii.iter().flatten().map(blocks).collect(),
+        }
+    }
 }
 
 /// The anchors of a file, whose hypotheses and limits hold, and what is left for their expansions.
 pub(super) struct Anchors<'a> {
     bounds: FreeBounds<'a>,
     /// Those of the pencil, or of T0 and T1.
-    blocks: Vec<IntegralBlocks>,
+    blocks: PartBlocks,
     /// The blocks of B + sA, where reversed anchors are and may be.
-    reversed: Vec<IntegralBlocks>,
+    reversed: PartBlocks,
+    /// What the anchors serve.
+    pieces: Vec<AnchoredPiece>,
     /// W and V of each anchor, for each part.
     anchors: Vec<Vec<AnchorPolynomials<'a>>>,
     memory: WorkBudget,
@@ -152,7 +206,11 @@ impl<'a> Anchors<'a> {
         let mut expansions = Vec::with_capacity(eliminations.len());
         for elimination in &eliminations {
             let right = right.get_or_insert_with(|| elimination.right_residual());
-            expansions.push(elimination.expand(right, self.bounds));
+            let mut expanded = elimination.expand(right, self.bounds);
+            if let Some(radii) = elimination.radii {
+                expanded.spread(elimination.spread(radii, &self.reach(number)?));
+            }
+            expansions.push(expanded);
         }
 
         Ok(expansions)
@@ -165,22 +223,54 @@ impl<'a> Anchors<'a> {
             got: Some(number),
         })?;
 
-        let blocks = if anchor[0].reversed {
+        let PartBlocks { middle, radii } = if anchor[0].reversed {
             &self.reversed
         } else {
             &self.blocks
         };
-        if blocks.is_empty() {
+        if middle.is_empty() {
             return Err(CoverFault::hypothesis(
                 "mass_sigma > 0 for a reversed anchor",
                 0,
             ));
         }
 
-        let parts = blocks.iter().zip(anchor);
+        let parts = middle.iter().zip(anchor).enumerate();
         parts
-            .map(|(blocks, w_and_v)| blocks.elimination(*w_and_v))
+            .map(|(part, (blocks, w_and_v))| blocks.elimination(*w_and_v, radii.get(part)))
             .collect()
+    }
+
+    /// What the anchor with this number serves: the pieces that name it, in its own variable. Trees
+    /// cut these intervals, so nothing in them may be left out; an infinite one is refused.
+    fn reach(&self, number: usize) -> Result<Reach, CoverFault> {
+        let anchor = self.anchors[number][0];
+        let mut reach = Reach {
+            distance: Rational::zero(),
+            top: Rational::zero(),
+        };
+
+        for piece in self.pieces.iter().filter(|p| p.anchor == Some(number)) {
+            let own = match (anchor.reversed, &piece.hi) {
+                (false, Some(hi)) => Some([piece.lo.clone(), hi.clone()]),
+                (true, hi) if piece.lo.is_positive() => Some([
+                    hi.as_ref().map_or_else(Rational::zero, Rational::recip),
+                    piece.lo.recip(),
+                ]),
+                _ => None,
+            };
+            let own = own.ok_or_else(|| CoverFault::Unbounded {
+                lo: piece.lo.clone(),
+                hi: end(piece.hi.as_ref()),
+            })?;
+
+            for end in own {
+                reach.distance = reach.distance.max((&end - anchor.center).abs());
+                reach.top = reach.top.max(end);
+            }
+        }
+
+        Ok(reach)
     }
 }
 
@@ -235,8 +325,11 @@ impl AnchorOfParts for CriticalAnchor {
     }
 }
 
-/// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0.
-fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
+/// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0,
+/// for every member.
+fn check_hypotheses(parts: &PartBlocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
+    let blocks = &parts.middle[0];
+    let radius = parts.radii.first();
     let sigma = bounds.sigma;
     let tau = bounds.tau;
     if !sigma.is_positive() {
@@ -248,7 +341,7 @@ fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(
         return Err(CoverFault::hypothesis("mass_sigma >= 0", 0));
     }
 
-    let stiffness = blocks.shifted_free_block(LinearPart::Constant, sigma);
+    let stiffness = blocks.shifted_free_block(LinearPart::Constant, sigma, radius);
     semidefinite(
         &stiffness,
         &(&blocks.common * sigma.denom()),
@@ -256,7 +349,7 @@ fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(
         false,
         "A_ff - sigma I positive semidefinite",
     )?;
-    let mass = blocks.shifted_free_block(LinearPart::Linear, tau);
+    let mass = blocks.shifted_free_block(LinearPart::Linear, tau, radius);
     semidefinite(
         &mass,
         &(&blocks.common * tau.denom()),
@@ -266,9 +359,11 @@ fn check_hypotheses(blocks: &IntegralBlocks, bounds: FreeBounds<'_>) -> Result<(
     )
 }
 
-/// Demands that sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
+/// Demands that sym(A + from B) is positive definite and sym(B) semidefinite on all variables, for
+/// every pencil within `radius` of the rows.
 pub(super) fn tail(
     rows: &Rows,
+    radius: Option<&Rows>,
     from: &Rational,
     factor: &Factor,
     mass_factor: Option<&Factor>,
@@ -280,7 +375,16 @@ pub(super) fn tail(
 
     // Twice the symmetric parts; both factors are of the symmetric part itself.
     let twice: Integer = &common * 2;
-    let pencil = twice_symmetric(rows, &common, from.denom(), from.numer());
+    let least = |q: &Integer, p: &Integer| {
+        let mut least = twice_symmetric(rows, &common, q, p);
+        if let Some(radius) = radius {
+            for (i, row) in twice_symmetric(radius, &common, q, p).iter().enumerate() {
+                *least[i].entry(i).or_default() -= row.values().sum::<Integer>();
+            }
+        }
+        least
+    };
+    let pencil = least(from.denom(), from.numer());
     semidefinite(
         &pencil,
         &(&twice * from.denom()),
@@ -288,7 +392,7 @@ pub(super) fn tail(
         true,
         "sym(A + from B) positive definite",
     )?;
-    let mass = twice_symmetric(rows, &common, &Integer::zero(), &Integer::one());
+    let mass = least(&Integer::zero(), &Integer::one());
     semidefinite(
         &mass,
         &twice,
@@ -315,48 +419,50 @@ fn twice_symmetric(rows: &Rows, common: &Integer, q: &Integer, p: &Integer) -> S
 
 /// The blocks of the pencil; free rows multiplied by one common integer, slip rows each by its own
 /// integer.
-struct IntegralBlocks {
-    free: usize,
-    slip: usize,
+pub(super) struct IntegralBlocks {
+    pub(super) free: usize,
+    pub(super) slip: usize,
     /// Bit length of the longest entry of the integral rows.
     longest: u64,
     /// The free rows' common multiplier D.
-    common: Integer,
+    pub(super) common: Integer,
     /// D T_ff and D T_fs, T_sf and T_ss.
-    of_t: LinearBlocks,
+    pub(super) of_t: LinearBlocks,
     /// What each slip row was multiplied by.
     factor: Vec<Integer>,
     /// Each slip row is divided by two to this power.
-    bits: Vec<u64>,
+    pub(super) bits: Vec<u64>,
 }
 
 /// LinearBlocks of matrices linear in t or d.
 #[derive(Default)]
-struct LinearBlocks {
-    ff: Linear,
-    fs: Linear,
-    sf: Linear,
-    ss: Linear,
+pub(super) struct LinearBlocks {
+    pub(super) ff: Linear,
+    pub(super) fs: Linear,
+    pub(super) sf: Linear,
+    pub(super) ss: Linear,
 }
 
 /// W or V: a polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
-struct MatrixPolynomial<'a> {
-    coefficients: Vec<Coefficient<'a>>,
-    exponent: u32,
+pub(super) struct MatrixPolynomial<'a> {
+    pub(super) coefficients: Vec<Coefficient<'a>>,
+    pub(super) exponent: u32,
     /// Bits of the longest entry in these units, as the certificate spells it: without the factors
     /// of rows.
     entry_bits: u64,
 }
 
 /// A matrix as the certificate spells it; its column j counts `column_factors[j]` times.
-struct Coefficient<'a> {
-    matrix: &'a [IntegerRow],
-    column_factors: Vec<Integer>,
+pub(super) struct Coefficient<'a> {
+    pub(super) matrix: &'a [IntegerRow],
+    pub(super) column_factors: Vec<Integer>,
 }
 
 /// The elimination about one anchor: W and V, and the blocks about its center.
 struct AnchorElimination<'a> {
     blocks: &'a IntegralBlocks,
+    /// The blocks of the radii, where the data have them.
+    radii: Option<&'a IntegralBlocks>,
     anchor: AnchorPolynomials<'a>,
     /// The blocks as matrices linear in d = t - p/q, all of them times D q.
     about: LinearBlocks,
@@ -467,8 +573,13 @@ impl IntegralBlocks {
     }
 
     /// A_ff - shift I or B_ff - shift I, the constant part of T_ff or the linear one, in units of
-    /// 1 / (D times the denominator of the shift).
-    fn shifted_free_block(&self, part: LinearPart, shift: &Rational) -> SymmetricRows {
+    /// 1 / (D times the denominator of the shift); the row sums of the radii come off its diagonal.
+    fn shifted_free_block(
+        &self,
+        part: LinearPart,
+        shift: &Rational,
+        radius: Option<&IntegralBlocks>,
+    ) -> SymmetricRows {
         let diagonal_shift = &self.common * shift.numer();
 
         let mut block = SymmetricRows::with_capacity(self.free);
@@ -478,7 +589,14 @@ impl IntegralBlocks {
                 entries.insert(j, entry * shift.denom());
             }
 
-            *entries.entry(i).or_default() -= &diagonal_shift;
+            let diagonal = entries.entry(i).or_default();
+            *diagonal -= &diagonal_shift;
+            if let Some(radius) = radius {
+                let of_row = row_of(&radius.of_t.ff[i], part).into_iter();
+                let sum: Integer = of_row.map(|(_, radius)| radius).sum();
+                *diagonal -= sum * shift.denom();
+            }
+
             block.push(entries);
         }
 
@@ -489,6 +607,7 @@ impl IntegralBlocks {
     fn elimination<'a>(
         &'a self,
         anchor: AnchorPolynomials<'a>,
+        radii: Option<&'a IntegralBlocks>,
     ) -> Result<AnchorElimination<'a>, CoverFault> {
         let w = self.polynomial(anchor.right, &ones(self.slip))?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
@@ -498,6 +617,7 @@ impl IntegralBlocks {
 
         Ok(AnchorElimination {
             blocks: self,
+            radii,
             about: self.about(anchor.center),
             anchor,
             w,
@@ -607,6 +727,16 @@ impl AnchorElimination<'_> {
             .saturating_mul(BITS_OF_A_NUMBER + self.entry_bits)
     }
 
+    /// What the members add for the values that the anchor serves.
+    fn spread(&self, radii: &IntegralBlocks, reach: &Reach) -> Spread {
+        let about = Polynomials {
+            center: self.anchor.center,
+            w: &self.w,
+            v: &self.v,
+        };
+        Spread::of(radii, &about, reach)
+    }
+
     /// r = T_fs - F W.
     fn right_residual(&self) -> Residual {
         ResidualEquations {
@@ -679,6 +809,7 @@ impl AnchorElimination<'_> {
             bound_bits: rational_bits(sigma) + rational_bits(tau),
             coefficients: coefficients(&self.w, &self.v),
             reversed: self.anchor.reversed,
+            spread: None,
         }
     }
 
@@ -882,12 +1013,15 @@ fn zero(rows: usize, cols: usize) -> LongMatrix {
     vec![vec![Integer::zero(); cols]; rows]
 }
 
-fn ones(count: usize) -> Vec<Integer> {
+pub(super) fn ones(count: usize) -> Vec<Integer> {
     vec![Integer::one(); count]
 }
 
 /// Adds the squares of a row's entries to the sums of their columns.
-fn add_squares<T: Deref<Target = Integer>>(sums: &mut [Integer], row: impl Iterator<Item = T>) {
+pub(super) fn add_squares<T: Deref<Target = Integer>>(
+    sums: &mut [Integer],
+    row: impl Iterator<Item = T>,
+) {
     for (sum, entry) in sums.iter_mut().zip(row) {
         *sum += &*entry * &*entry;
     }
@@ -896,7 +1030,7 @@ fn add_squares<T: Deref<Target = Integer>>(sums: &mut [Integer], row: impl Itera
 /// Upper bounds of the Euclidean norms of columns with these sums of squares, in units of
 /// 2^-[`NORM_BITS`]: the norm itself where it is a whole number of units. Column j counts
 /// `column_factors[j]` times.
-fn norms(squares: &[Integer], column_factors: &[Integer]) -> Vec<Integer> {
+pub(super) fn norms(squares: &[Integer], column_factors: &[Integer]) -> Vec<Integer> {
     let mut norms = Vec::with_capacity(squares.len());
     for (square, factor) in squares.iter().zip(column_factors) {
         let square = (square * factor * factor) << (2 * NORM_BITS);

@@ -18,18 +18,23 @@
 //! of such a combination at the upper one. What is linear in T, or convex, holds in the region if
 //! it holds at the corners.
 //!
+//! Where the data have radii this holds of each member: its T0(t) and T1(t) lie within what the
+//! ends say, and row i of its T1 is that with the friction factors in the middle times 1 + d,
+//! |d| at most the share of the particle. `spread` and the linear family add the radii of K and M
+//! to those of the ends, and the share of a row of T1 is added here.
+//!
 //! Matrices are computed once for all regions of the same intervals, and their work is taken from
 //! the budget of the file.
 
 use super::budget::{WorkBudget, entries_work};
-use super::condensed::Anchors;
+use super::condensed::{Anchors, PencilParts};
 use super::ends::{EndMatrix, Ends, FRACTION_BITS, rational_bits, within_matrix_bits};
 use super::family::{Family, end_bits, words};
 use super::fault::CoverFault;
 use super::proved::AcceptedSolution;
 use super::region::Region;
 use super::sign_budget::SignBudget;
-use crate::pencil::Rows;
+use crate::pencil::{MemberRadii, Rows};
 use mceip_exact::Rational;
 use mceip_model::Window;
 use std::rc::Rc;
@@ -49,6 +54,8 @@ pub(super) struct Context<'a> {
     pub(super) rows: &'a Rows,
     /// T, or T0 and T1.
     pub(super) families: Vec<Family>,
+    /// How far a member may be off, where the data have radii.
+    radii: Option<&'a MemberRadii>,
     /// The complementarity variables: positions in states and matrices to indices of the problem.
     pub(super) index: Vec<usize>,
     /// The anchor that the piece names.
@@ -67,15 +74,19 @@ pub(super) struct Context<'a> {
 impl<'a> Context<'a> {
     /// The context of a file with so many nodes in its trees.
     pub(super) fn new(
-        parts: &[&'a Rows],
+        parts: PencilParts<'_, 'a>,
         anchors: Option<&Anchors<'_>>,
         window: &'a Window,
         nodes: u64,
     ) -> Context<'a> {
+        let PencilParts {
+            rows: parts, radii, ..
+        } = parts;
         let rows = parts[0];
         Context {
             rows,
-            families: Family::of_parts(parts, anchors),
+            radii,
+            families: Family::of_parts(parts, radii, anchors),
             index: rows.complementarity_variables(),
             anchor: None,
             window,
@@ -159,7 +170,13 @@ impl<'a> Context<'a> {
     fn part_ends(&self, region: &Region, part: usize) -> Result<Rc<[Ends]>, CoverFault> {
         region.parts[part].ends(|| {
             let family = &self.families[part];
-            let ends = family.ends(self.anchor, &region.lo, region.hi.as_deref())?;
+            let mut ends = family.ends(self.anchor, &region.lo, region.hi.as_deref())?;
+            if let (Some(radii), 1) = (self.radii, part) {
+                ends.at = ends
+                    .at
+                    .each_ref()
+                    .map(|end| end.with_rows_off(&radii.relative));
+            }
             Ok([ends].into())
         })
     }

@@ -26,6 +26,7 @@
 use super::ball::BallMatrix;
 use super::ends::{Ends, FRACTION_BITS, LongMatrix};
 use super::fault::CoverFault;
+use super::spread::Spread;
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -58,6 +59,9 @@ pub(super) struct Expanded {
     pub(super) coefficients: usize,
     /// Is this B + sA, and the value expanded in s = 1 / t?
     pub(super) reversed: bool,
+    /// What the entries of a member may be off beside the remainder, in the fixed unit, over the
+    /// intervals that the anchor serves; where the data have radii.
+    pub(super) spread: Option<LongMatrix>,
 }
 
 /// The factors |l_i|, |r_j|, |v_i|, |q_j| of the remainders, in the fixed unit: their bounds, or
@@ -70,6 +74,21 @@ struct RemainderFactors {
 }
 
 impl Expanded {
+    /// Adds what members may be off.
+    pub(super) fn spread(&mut self, spread: Spread) {
+        for (norms, more) in [
+            (&mut self.left, spread.left),
+            (&mut self.right, spread.right),
+        ] {
+            // A residual has two coefficients at least.
+            for (norm, more) in norms[0].iter_mut().zip(more) {
+                *norm += more;
+            }
+        }
+
+        self.spread = Some(spread.entries);
+    }
+
     /// The ends over [lo, hi]; of a reversed expansion those over the interval of s, the first
     /// still that of the lower t.
     pub(super) fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
@@ -193,9 +212,9 @@ impl Expanded {
         self.weight.len()
     }
 
-    /// Demands what a half line needs.
+    /// Demands what a half line needs. The spread is that of an interval.
     fn require_linear(&self) -> Result<(), CoverFault> {
-        if self.is_linear() {
+        if self.is_linear() && self.spread.is_none() {
             return Ok(());
         }
 
@@ -258,10 +277,14 @@ impl Expanded {
         })
     }
 
-    /// Bound of both remainders for |d| <= reach, and what rounding m down has cost.
+    /// Bound of both remainders for |d| <= reach, what rounding m down has cost, and the spread.
     fn remainder(&self, reach: &Rational, weight: &[Rational]) -> LongMatrix {
         let factors = self.factors(0, reach);
-        self.weighted(&factors, weight)
+        let remainder = self.weighted(&factors, weight);
+        match &self.spread {
+            Some(spread) => self.grid(|i, j| &remainder[i][j] + &spread[i][j]),
+            None => remainder,
+        }
     }
 
     /// The remainder of the direction Z_1 of a pencil that is linear: l and V may be linear, r and

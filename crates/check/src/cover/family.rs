@@ -6,7 +6,7 @@
 //!
 //! Each row of A + tB is an integral row of the pencil divided by a power of two that makes its
 //! largest entry of A less than one. Numbers are integers in units of 2^-128; what is cut off is
-//! counted as a radius. Rows multiplied by positive numbers d_i keep the null vectors of T and the
+//! counted as a radius, and so are the radii of the data, rounded up. Rows multiplied by positive numbers d_i keep the null vectors of T and the
 //! signs of y = Tx, and x'Tx becomes sum d_i x_i y_i, which is zero for solutions as before.
 //!
 //! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it. The
@@ -20,10 +20,10 @@ use super::ends::{
 };
 use super::expanded::Expanded;
 use super::fault::CoverFault;
-use crate::pencil::Rows;
+use crate::pencil::{MemberRadii, Rows};
 use mceip_exact::{Integer, Rational, cleared};
 use num_integer::Integer as _;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// T(t) over the window.
 pub(super) enum Family {
@@ -33,23 +33,29 @@ pub(super) enum Family {
     Condensed(Vec<Option<Expanded>>),
 }
 
-/// A + tB with a radius per row for what was cut off.
+/// A + tB, with the radii of the data and what was cut off.
 pub(super) struct LinearFamily {
-    a: LongMatrix,
-    b: LongMatrix,
-    radius: Vec<Integer>,
+    a: BallMatrix<Integer>,
+    b: BallMatrix<Integer>,
 }
 
 impl Family {
     /// The parts of the pencil, in one unit: with free variables about these anchors, none of which
     /// is expanded.
-    pub(super) fn of_parts(parts: &[&Rows], anchors: Option<&Anchors<'_>>) -> Vec<Family> {
+    pub(super) fn of_parts(
+        parts: &[&Rows],
+        radii: Option<&MemberRadii>,
+        anchors: Option<&Anchors<'_>>,
+    ) -> Vec<Family> {
         let bits = row_bits(parts);
         let mut families = Vec::with_capacity(parts.len());
-        for rows in parts {
+        for (part, rows) in parts.iter().enumerate() {
             families.push(match anchors {
                 Some(anchors) => Family::Condensed((0..anchors.len()).map(|_| None).collect()),
-                None => Family::Linear(LinearFamily::scaled(rows, &bits)),
+                None => {
+                    let radius = radii.map(|radii| radii.of_parts()[part]);
+                    Family::Linear(LinearFamily::scaled(rows, radius, &bits))
+                }
             });
         }
 
@@ -166,7 +172,7 @@ impl Family {
     fn matrix_size(&self, anchor: Option<usize>) -> Option<MatrixSize> {
         match self {
             Family::Linear(linear) => Some(MatrixSize {
-                order: linear.a.len(),
+                order: linear.a.m.len(),
                 coefficients: 1,
                 unit_bits: FRACTION_BITS,
                 center_bits: 0,
@@ -194,47 +200,40 @@ struct MatrixSize {
 }
 
 impl LinearFamily {
-    /// The pencil of a problem without free variables, row i divided by 2^bits_i.
-    fn scaled(rows: &Rows, bits: &[u64]) -> LinearFamily {
+    /// The pencil of a problem without free variables and the radii of its data, row i divided by
+    /// 2^bits_i.
+    fn scaled(rows: &Rows, radius: Option<&Rows>, bits: &[u64]) -> LinearFamily {
         let n = rows.order();
-        let mut linear = LinearFamily {
-            a: Vec::with_capacity(n),
-            b: Vec::with_capacity(n),
-            radius: Vec::with_capacity(n),
-        };
+        let mut a = BallMatrix::zero(n);
+        let mut b = BallMatrix::zero(n);
 
-        for (row, &bits) in rows.rows.iter().zip(bits) {
+        for (i, (row, &bits)) in rows.rows.iter().zip(bits).enumerate() {
             let lift = FRACTION_BITS as i64 - bits as i64;
-
-            let mut a = vec![Integer::zero(); n];
-            let mut b = vec![Integer::zero(); n];
             for (j, a_j, b_j) in row {
-                a[*j] = shift(a_j, lift);
-                b[*j] = shift(b_j, lift);
+                a.m[i][*j] = shift(a_j, lift);
+                b.m[i][*j] = shift(b_j, lift);
             }
 
-            linear.a.push(a);
-            linear.b.push(b);
-
             // Rounding down costs less than one unit.
-            let is_cut = lift < 0;
-            linear.radius.push(Integer::from(u8::from(is_cut)));
+            if lift < 0 {
+                a.r[i].fill(Integer::one());
+                b.r[i].fill(Integer::one());
+            }
+
+            for (j, a_j, b_j) in radius.iter().flat_map(|radius| &radius.rows[i]) {
+                a.r[i][*j] -= shift(&-a_j, lift); // rounded up
+                b.r[i][*j] -= shift(&-b_j, lift);
+            }
         }
 
-        linear
+        LinearFamily { a, b }
     }
 
-    /// A factor times the radius, for every entry.
-    fn by_row(&self, factor: &Integer) -> LongMatrix {
-        let n = self.radius.len();
-        self.radius.iter().map(|r| vec![factor * r; n]).collect()
-    }
-
-    /// q A + p B for q >= 0, with what was cut off.
+    /// q A + p B for q >= 0, with the radius.
     fn at(&self, p: &Integer, q: &Integer) -> BallMatrix<Integer> {
         BallMatrix {
-            m: combination(&self.a, q, &self.b, p),
-            r: self.by_row(&(q + p.abs())),
+            m: combination(&self.a.m, q, &self.b.m, p),
+            r: combination(&self.a.r, q, &self.b.r, &p.abs()),
         }
     }
 
@@ -259,7 +258,9 @@ impl LinearFamily {
     fn slope(&self, lo: &Rational, hi: Option<&Rational>) -> LongMatrix {
         let width = hi.unwrap_or(lo) - lo;
         let common = lo.denom().lcm(hi.unwrap_or(lo).denom());
-        self.by_row(&(width * common).to_integer())
+        let factor = (width * common).to_integer();
+        let scaled = |row: &Vec<Integer>| row.iter().map(|r| &factor * r).collect();
+        self.b.r.iter().map(scaled).collect()
     }
 }
 
@@ -343,8 +344,10 @@ mod tests {
     #[test]
     fn ends_are_exact_but_for_what_is_cut_off() {
         let rows = rows();
-        let linear = LinearFamily::scaled(&rows, &row_bits(&[&rows]));
-        assert_eq!(linear.radius, [0, 0, 1].map(Integer::from));
+        let linear = LinearFamily::scaled(&rows, None, &row_bits(&[&rows]));
+        for (i, cut) in [0, 0, 1].map(Integer::from).iter().enumerate() {
+            assert!(linear.a.r[i].iter().chain(&linear.b.r[i]).all(|r| r == cut));
+        }
         let (lo, hi) = (rational(2, 3), rational(7, 5));
         let ends = linear.ends(&lo, Some(&hi));
         let slope = linear.slope(&lo, Some(&hi));
@@ -396,8 +399,8 @@ mod tests {
             rational(1, 1000),
             rational(1001, 7),
         ] {
-            let ends = LinearFamily::scaled(&rows, &row_bits(&[&rows])).ends(&lo, None);
-            let slope = LinearFamily::scaled(&rows, &row_bits(&[&rows])).slope(&lo, None);
+            let ends = LinearFamily::scaled(&rows, None, &row_bits(&[&rows])).ends(&lo, None);
+            let slope = LinearFamily::scaled(&rows, None, &row_bits(&[&rows])).slope(&lo, None);
             assert!(ends.infinite);
 
             for i in 0..3 {
@@ -422,7 +425,7 @@ mod tests {
             }
         }
         assert!(
-            Family::Linear(LinearFamily::scaled(&rows, &row_bits(&[&rows])))
+            Family::Linear(LinearFamily::scaled(&rows, None, &row_bits(&[&rows])))
                 .ends(None, &whole(1), None)
                 .is_ok()
         );
@@ -437,7 +440,7 @@ mod tests {
             factor: vec![Integer::one(); n],
             is_free: vec![false; n],
         };
-        let family = Family::of_parts(&[&rows(1024)], None).remove(0);
+        let family = Family::of_parts(&[&rows(1024)], None, None).remove(0);
         // With its denominator of one bit.
         let value = |bits: u64| Rational::from_integer(Integer::one() << (bits - 2));
 
@@ -486,6 +489,7 @@ mod tests {
             bound_bits,
             coefficients: 1,
             reversed: false,
+            spread: None,
         };
         Family::Condensed(vec![Some(expanded)])
     }

@@ -58,6 +58,17 @@ pub enum CoverFault {
         /// The index.
         index: usize,
     },
+    /// A piece that reaches to infinity, where the data have radii.
+    #[error(
+        "piece [{lo}, {hi}]: expected an interval that is bounded in the variable of its anchor, \
+         because the data have radii (a reversed anchor above 0 reaches to infinity)"
+    )]
+    Unbounded {
+        /// Its lower end.
+        lo: Rational,
+        /// Its upper end.
+        hi: String,
+    },
     /// Wrong number of weights or vector entries.
     #[error("{what}: expected {expected} entries, got {got}")]
     Length {

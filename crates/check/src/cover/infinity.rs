@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn a_chord_to_infinity_leads_from_the_pencil_to_its_direction() {
         let given: &[&[(i64, i64)]] = &[&[(3, 1), (-5, 2)], &[(7, -4), (0, 9)]];
-        let family = Family::of_parts(&[&rows(given, &[])], None).remove(0);
+        let family = Family::of_parts(&[&rows(given, &[])], None, None).remove(0);
         // The largest entries of A are 5 and 7, both below 8.
         let row_scale = whole(8);
 

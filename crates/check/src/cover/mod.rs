@@ -19,7 +19,8 @@
 //! (`found`).
 //!
 //! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
-//! half line. `ball`, `product`, `enclosed_definite` and `psd` are the arithmetic behind it. `walk`
+//! half line. `ball`, `product`, `enclosed_definite` and `psd` are the arithmetic behind it, `spread`
+//! what the radii of the data add. `walk`
 //! goes through the trees, and `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
@@ -62,6 +63,7 @@ mod regular;
 mod root;
 mod rootless;
 mod sign_budget;
+mod spread;
 pub(crate) mod stability;
 mod support;
 pub(crate) mod walk;
@@ -74,7 +76,7 @@ pub use proved::{AcceptedCover, OpenRegion, SolutionFamily};
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::{CompleteSet, Condensation};
-use condensed::{AnchorOfParts, Anchors};
+use condensed::{AnchorOfParts, Anchors, PencilParts};
 use context::Context;
 use mceip_exact::Rational;
 use mceip_model::Window;
@@ -113,9 +115,11 @@ fn check_cover(
     cover: &CompleteSet,
     audit: Option<&Audit<'_>>,
 ) -> Result<AcceptedCover, FaultAt> {
-    let anchors = anchors(&[rows], cover.condensation.as_ref())?;
+    let parts = [rows];
+    let pencil = PencilParts::exact(&parts);
+    let anchors = anchors(pencil, cover.condensation.as_ref())?;
     let nodes = budget::nodes(&cover.pieces);
-    let mut context = Context::new(&[rows], anchors.as_ref(), window, nodes);
+    let mut context = Context::new(pencil, anchors.as_ref(), window, nodes);
     context.claims = claims;
     context.tail = tail(rows, cover)?;
 
@@ -136,11 +140,11 @@ fn check_cover(
 /// The anchors of the condensation, which is there exactly if there are free variables. Demands
 /// that matrices of the problem's order may be formed, for each part about each anchor.
 fn anchors<'a, A: AnchorOfParts, T>(
-    parts: &[&Rows],
+    parts: PencilParts<'_, 'a>,
     condensation: Option<&'a Condensation<A, T>>,
 ) -> Result<Option<Anchors<'a>>, CoverFault> {
-    let rows = parts[0];
-    let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(parts.len()));
+    let rows = parts.rows[0];
+    let expansions = condensation.map_or(0, |c| c.anchors.len().saturating_mul(parts.rows.len()));
     let order = rows.complementarity_variables().len();
     check_size(order, expansions)?;
 
@@ -168,7 +172,7 @@ fn tail<'a>(rows: &Rows, cover: &'a CompleteSet) -> Result<Option<&'a Rational>,
     let Some(tail) = tail else { return Ok(None) };
 
     let from = &tail.from.0;
-    condensed::tail(rows, from, &tail.factor, tail.mass_factor.as_ref())?;
+    condensed::tail(rows, None, from, &tail.factor, tail.mass_factor.as_ref())?;
     Ok(Some(from))
 }
 
@@ -208,7 +212,7 @@ mod tests {
 
     /// The context of a file with one node.
     fn context<'a>(rows: &'a Rows, window: &'a Window) -> Context<'a> {
-        Context::new(&[rows], None, window, 1)
+        Context::new(PencilParts::exact(&[rows]), None, window, 1)
     }
 
     /// Three variables that may be positive cost 27; the second leaf does not find enough left.

@@ -18,12 +18,15 @@
 //!
 //! At such a zero x = v_true is a solution: T_SS x = 0, x > 0 on S, T x >= 0 off it.
 //!
+//! Where the data have radii, each member has a solution, because the ends hold its matrices too.
+//!
 //! Left sides that are maxima over corners bound the whole box: they are convex in T, and the radii
 //! are part of them.
 
 use super::anchors;
 use super::bordered::{Bordered, NullWitness, SupportBlock};
 use super::budget::WorkBudget;
+use super::condensed::{AnchoredPiece, PencilParts};
 use super::context::{Context, corner_bits, corners};
 use super::critical::of_boxes;
 use super::ends::{EndMatrix, Ends};
@@ -50,12 +53,26 @@ pub(crate) fn check(
 
 fn check_pieces(parts: &FrictionParts, certificate: &PresenceCertificate) -> Result<(), FaultAt> {
     let both = [&parts.plain, &parts.friction];
+    let mut intervals = Vec::with_capacity(certificate.pieces.len());
+    for piece in &certificate.pieces {
+        let [lo, hi] = &piece.interval;
+        intervals.push(AnchoredPiece {
+            anchor: piece.anchor,
+            lo: lo.0.clone(),
+            hi: Some(hi.0.clone()),
+        });
+    }
+    let pencil = PencilParts {
+        rows: &both,
+        radii: parts.radii.as_ref(),
+        pieces: &intervals,
+    };
     let condensation = certificate.condensation.as_ref();
-    let anchors = anchors(&both, condensation)?;
+    let anchors = anchors(pencil, condensation)?;
 
     let window = Window::all();
     let pieces = certificate.pieces.len() as u64;
-    let mut context = Context::new(&both, anchors.as_ref(), &window, pieces);
+    let mut context = Context::new(pencil, anchors.as_ref(), &window, pieces);
     let budget = WorkBudget::of_pieces(pieces);
 
     let mut low = &certificate.from;

@@ -21,7 +21,7 @@
 //! Input: the parts of the pencil, with the mass and without. T at both ends is the enclosure that
 //! all leaves use (`context`), with one anchor at 0.
 
-use super::condensed::{self, AnchorPolynomials, FreeBounds};
+use super::condensed::{self, AnchorPolynomials, FreeBounds, PencilParts};
 use super::context::Context;
 use super::ends::{EndMatrix, largest_bits};
 use super::fault::CoverFault;
@@ -59,6 +59,7 @@ pub(crate) fn check(
 ) -> Result<(), Reason> {
     let zero = Rational::zero();
     let both = [&massless.plain, &massless.friction];
+    let massless_parts = PencilParts::exact(&both);
     let slip = massless.plain.complementarity_variables().len();
     let free = massless.plain.order() - slip;
     check_size(slip, both.len())?;
@@ -73,7 +74,11 @@ pub(crate) fn check(
         None => None,
         Some(condensation) => {
             let (bounds, anchor) = at_zero(condensation, &zero);
-            Some(condensed::with_anchors(&both, bounds, vec![anchor])?)
+            Some(condensed::with_anchors(
+                massless_parts,
+                bounds,
+                vec![anchor],
+            )?)
         }
     };
 
@@ -82,7 +87,7 @@ pub(crate) fn check(
     let work = FreeWork::of(&pencil, certificate)?;
 
     let window = Window::all();
-    let mut context = Context::new(&both, anchors.as_ref(), &window, 1);
+    let mut context = Context::new(massless_parts, anchors.as_ref(), &window, 1);
     context.use_anchor(anchors.as_ref(), anchors.as_ref().map(|_| 0))?;
     let friction = [&certificate.from, &certificate.to];
     let at_rest = Rc::new(Rational::zero());

@@ -279,6 +279,7 @@ fn check_end(
 mod tests {
     use super::*;
     use crate::certificate::{Ldl, LdlFactor};
+    use crate::cover::condensed::PencilParts;
     use crate::pencil::Rows;
     use mceip_exact::{Integer, whole};
     use mceip_model::file::Number;
@@ -302,7 +303,10 @@ mod tests {
             &[&rows]
         };
         let window = Window::all();
-        let mut walk = CoverWalk::new(Context::new(parts, None, &window, 1), None);
+        let mut walk = CoverWalk::new(
+            Context::new(PencilParts::exact(parts), None, &window, 1),
+            None,
+        );
         walk.friction = has_friction.then(|| [whole(0), whole(1)].map(Rc::new));
 
         let piece = Piece {

@@ -176,7 +176,7 @@ fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
 fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     let rows = rows(p);
     let condensation = condensation(vec![anchor.clone()]);
-    let anchors = of(&[&rows], &condensation).unwrap();
+    let anchors = of(PencilParts::exact(&[&rows]), &condensation).unwrap();
     let e: Expanded = anchors.expand(0).unwrap().remove(0);
     let center = &anchor.center.0;
     let (w, v) = (true_values(&anchor.right), true_values(&anchor.left));
@@ -257,7 +257,7 @@ fn the_expansion_is_that_of_the_identity() {
 fn expansions_spend_a_budget_of_memory() {
     let condensation = condensation(vec![anchor(1, 1), anchor(1, 1)]);
     let rows = rows(&pencil());
-    let anchors = of(&[&rows], &condensation).unwrap();
+    let anchors = of(PencilParts::exact(&[&rows]), &condensation).unwrap();
     let before = anchors.memory.left();
     assert_eq!(before, (1 << 30) + (16 << 12));
 
@@ -270,7 +270,7 @@ fn expansions_spend_a_budget_of_memory() {
 
     let short = Anchors {
         memory: WorkBudget::matrices(cost - 1),
-        ..of(&[&rows], &condensation).unwrap()
+        ..of(PencilParts::exact(&[&rows]), &condensation).unwrap()
     };
     assert!(matches!(short.expand(0), Err(CoverFault::TooLarge { .. })));
     assert!(matches!(anchors.expand(2), Err(CoverFault::Anchor { .. })));
@@ -284,7 +284,7 @@ fn degrees_and_exponents_have_a_limit() {
             .map(|_| matrix(exponent, [[1, 0], [0, 1]]))
             .collect();
         super::of(
-            &[&rows(&pencil())],
+            PencilParts::exact(&[&rows(&pencil())]),
             &condensation(vec![Anchor {
                 left: list,
                 ..anchor(1, 0)
@@ -313,7 +313,8 @@ fn degrees_and_exponents_have_a_limit() {
 
 #[test]
 fn blocks_are_definite_beyond_sigma_and_tau_only() {
-    let verdict = |p: &(Dense, Dense), c: &Condensation| of(&[&rows(p)], c).map(|_| ());
+    let verdict =
+        |p: &(Dense, Dense), c: &Condensation| of(PencilParts::exact(&[&rows(p)]), c).map(|_| ());
     let c = condensation(vec![]);
     assert_eq!(verdict(&pencil(), &c), Ok(()));
     let hair = rational(1, 1000);
@@ -376,7 +377,7 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
             let m = if in_a { &mut p.0 } else { &mut p.1 };
             m[k][l] += rational(1, 10);
             assert_eq!(
-                of(&[&rows(&p)], &condensation(vec![])).map(|_| ()),
+                of(PencilParts::exact(&[&rows(&p)]), &condensation(vec![])).map(|_| ()),
                 refused(0)
             );
         }
@@ -414,6 +415,7 @@ fn a_tail_begins_where_the_symmetric_part_is_definite() {
         let rows = tail_rows(&c, &d);
         tail(
             &rows,
+            None,
             &claim.from.0,
             &claim.factor,
             claim.mass_factor.as_ref(),

@@ -10,7 +10,7 @@ use crate::certificate::{CriticalAnchor, CriticalCondensation, Factor, IntegerMa
 use crate::pencil::Rows;
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::file::Number;
-use mceip_model::{ContactState, Particle, System};
+use mceip_model::{ContactState, Particle, Radii, System};
 use num_traits::{One, Signed};
 
 type Dense = Vec<Vec<Rational>>;
@@ -31,6 +31,14 @@ fn symmetric(diagonal: i64, denominator: i64) -> Sparse {
 }
 
 fn parts() -> FrictionParts {
+    parts_of(&system(symmetric(20, 1), symmetric(5, 3)))
+}
+
+fn parts_of(system: &System) -> FrictionParts {
+    FrictionParts::of(system, system.mass().unwrap())
+}
+
+fn system(stiffness: Sparse, mass: Sparse) -> System {
     let oblique = Particle {
         frame: Some([
             [rational(3, 5), rational(4, 5)],
@@ -42,15 +50,45 @@ fn parts() -> FrictionParts {
         normal_direction: -1,
         ..Particle::plain(4, 5, ContactState::Slip { sign: -1 })
     };
-    let mass = symmetric(5, 3);
     let particles = vec![oblique, along_the_axes];
-    let system = System::new(
-        symmetric(20, 1),
-        Some(mass.clone()),
-        Some(whole(1)),
-        particles,
-    );
-    FrictionParts::of(&system.unwrap(), &mass)
+    System::new(stiffness, Some(mass), Some(whole(1)), particles).unwrap()
+}
+
+/// The same with radii of all data, and one of two factors within [1/2, 3/2].
+fn system_with_radii() -> System {
+    let mut particles = system(symmetric(20, 1), symmetric(5, 3))
+        .particles()
+        .to_vec();
+    particles[1].friction_factor_range = Some([rational(1, 2), rational(3, 2)]);
+    let stiffness = symmetric(20, 1);
+    let mass = symmetric(5, 3);
+    let radii = Radii {
+        stiffness: Some(Radii::relative(&stiffness, &rational(1, 50))),
+        mass: Some(Radii::absolute(&mass, &rational(1, 100))),
+    };
+    let system = System::new(stiffness, Some(mass), Some(whole(1)), particles).unwrap();
+    system.with_radii(radii).unwrap()
+}
+
+/// A member at a corner of what the radii allow, which the digits of `choice` pick.
+fn member(of: &System, choice: usize) -> System {
+    let corner = |matrix: &Sparse, radius: &Option<Sparse>| {
+        let mut entries = Vec::new();
+        for (i, j, r) in radius.iter().flat_map(Sparse::entries) {
+            let digit = (choice + i.min(j) * 5 + i.max(j) * (choice % 4 + 1)) % 3;
+            entries.push((i, j, r * whole(digit as i64 - 1)));
+        }
+        let off = Sparse::from_entries(6, 6, entries);
+        matrix.add_scaled(&whole(1), &off)
+    };
+
+    let mut particles = of.as_given().particles().to_vec();
+    if let Some([lo, hi]) = of.particles()[1].friction_factor_range.clone() {
+        particles[1].friction_factor = if choice % 2 == 0 { lo } else { hi };
+    }
+    let stiffness = corner(of.stiffness(), &of.radii().stiffness);
+    let mass = corner(of.mass().unwrap(), &of.radii().mass);
+    System::new(stiffness, Some(mass), Some(whole(1)), particles).unwrap()
 }
 
 /// The columns `free` or `slip` of the row as a matrix at t, exact, times the factor of the row.
@@ -254,6 +292,30 @@ fn row_units(
     units
 }
 
+/// The values of t of these tests.
+fn interval() -> [Rational; 2] {
+    [rational(1, 3), rational(9, 7)]
+}
+
+/// T0 + mu T1 of parts, condensed at t, its rows times `factors`.
+fn condensed_at(parts: &FrictionParts, t: &Rational, mu: &Rational, factors: &[Integer]) -> Dense {
+    let mut sum = schur(&parts.plain, t);
+    let friction = schur(&parts.friction, t);
+    let own = slip_factors(&parts.plain);
+    for (i, row) in sum.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry += mu * &friction[i][j];
+            *entry *= Rational::new(factors[i].clone(), own[i].clone());
+        }
+    }
+    sum
+}
+
+fn slip_factors(rows: &Rows) -> Vec<Integer> {
+    let slip = rows.complementarity_variables().into_iter();
+    slip.map(|i| rows.factor[i].clone()).collect()
+}
+
 /// Both parts about the anchor with this number.
 fn context<'a>(
     parts: &'a FrictionParts,
@@ -262,60 +324,173 @@ fn context<'a>(
     anchor: usize,
 ) -> Context<'a> {
     let both = [&parts.plain, &parts.friction];
-    let anchors = anchors(&both, Some(condensation)).unwrap();
-    let mut context = Context::new(&both, anchors.as_ref(), window, 1);
+    let [lo, hi] = interval();
+    let pencil = PencilParts {
+        rows: &both,
+        radii: parts.radii.as_ref(),
+        pieces: &[AnchoredPiece {
+            anchor: Some(anchor),
+            lo,
+            hi: Some(hi),
+        }],
+    };
+    let anchors = anchors(pencil, Some(condensation)).unwrap();
+    let mut context = Context::new(pencil, anchors.as_ref(), window, 1);
     context.use_anchor(anchors.as_ref(), Some(anchor)).unwrap();
     context
 }
 
-#[test]
-fn the_corners_enclose_the_schur_complement() {
-    let parts = parts();
-    let (lo, hi) = (rational(1, 3), rational(9, 7));
+/// Demands that the corners of a box of `parts` enclose what the parts of each of `members` give at
+/// 25 places of it. Returns the largest radius.
+fn assert_members_enclosed(
+    parts: &FrictionParts,
+    members: &[FrictionParts],
+    condensation: &CriticalCondensation,
+    anchor: usize,
+) -> Rational {
+    let [lo, hi] = interval();
     let (low, high) = (rational(2, 11), rational(5, 3));
     let shares = [0, 1, 3, 5, 8].map(|k| rational(k, 8));
 
-    // Rounded well and hardly, and far from the center.
-    for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
-        let condensation = condensation(&parts, &center, exponent);
+    let window = Window::all();
+    let context = context(parts, condensation, &window, anchor);
+    let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
+    let corners = enclosures(&context.ends(&at).unwrap());
+    let is_reversed = anchor == 1;
+    let units = row_units(
+        parts,
+        |(_, a, b)| if is_reversed { b.bits() } else { a.bits() },
+    );
+    let factors = slip_factors(&parts.plain);
 
-        for anchor in [0, 1] {
-            let window = Window::all();
-            let context = context(&parts, &condensation, &window, anchor);
-            let at = boxed([lo.clone(), hi.clone()], [low.clone(), high.clone()]);
-            let corners = enclosures(&context.ends(&at).unwrap());
-            let is_reversed = anchor == 1;
-            let units = row_units(
-                &parts,
-                |(_, a, b)| if is_reversed { b.bits() } else { a.bits() },
-            );
-
-            for share in &shares {
-                for higher in &shares {
-                    let t = if is_reversed {
-                        ((whole(1) - share) / &lo + share / &hi).recip()
-                    } else {
-                        &lo + share * (&hi - &lo)
-                    };
-                    let mu = &low + higher * (&high - &low);
-                    let mut truth = schur(&parts.plain, &t);
-                    let friction = schur(&parts.friction, &t);
-                    for i in 0..2 {
-                        for j in 0..2 {
-                            truth[i][j] += &mu * &friction[i][j];
-                            if is_reversed {
-                                truth[i][j] /= &t;
-                            }
-                        }
-                    }
-
-                    let widest = assert_enclosed(&corners, [share, higher], &truth, &units);
-                    if exponent == 40 && anchor == 0 {
-                        assert!(widest < rational(1, 20), "{widest}");
-                    }
+    let mut widest = whole(0);
+    for share in &shares {
+        for higher in &shares {
+            let t = if is_reversed {
+                ((whole(1) - share) / &lo + share / &hi).recip()
+            } else {
+                &lo + share * (&hi - &lo)
+            };
+            let mu = &low + higher * (&high - &low);
+            for member in members {
+                let mut truth = condensed_at(member, &t, &mu, &factors);
+                if is_reversed {
+                    truth.iter_mut().flatten().for_each(|entry| *entry /= &t);
                 }
+                widest = assert_enclosed(&corners, [share, higher], &truth, &units).max(widest);
             }
         }
+    }
+    widest
+}
+
+#[test]
+fn the_corners_enclose_the_schur_complement() {
+    // Rounded well and hardly, and far from the center.
+    for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
+        let condensation = condensation(&parts(), &center, exponent);
+        for anchor in [0, 1] {
+            let widest = assert_members_enclosed(&parts(), &[parts()], &condensation, anchor);
+            if exponent == 40 && anchor == 0 {
+                assert!(widest < rational(1, 20), "{widest}");
+            }
+        }
+    }
+}
+
+/// Corners of what the radii allow lie within the enlarged enclosures, and not within those of the
+/// body as given.
+#[test]
+fn the_corners_enclose_every_member() {
+    let system = system_with_radii();
+    let parts = parts_of(&system);
+    let members: Vec<FrictionParts> = (0..9).map(|k| parts_of(&member(&system, k))).collect();
+
+    for (center, exponent) in [(rational(4, 5), 40), (rational(4, 5), 2), (whole(7), 30)] {
+        let condensation = condensation(&parts, &center, exponent);
+        for anchor in [0, 1] {
+            let widest = assert_members_enclosed(&parts, &members, &condensation, anchor);
+            if exponent == 40 && anchor == 0 {
+                assert!(widest < rational(1, 2), "{widest}");
+            }
+        }
+    }
+}
+
+/// Each of the radii counts: without it there is a member outside.
+#[test]
+fn no_radius_may_be_forgotten() {
+    let all = system_with_radii();
+    let with = |radii: Radii, has_factors: bool| {
+        let mut system = all.clone().with_radii(radii).unwrap();
+        if !has_factors {
+            system = system
+                .as_given()
+                .with_radii(system.radii().clone())
+                .unwrap();
+        }
+        system
+    };
+    let Radii { stiffness, mass } = all.radii().clone();
+    let none = None;
+
+    for system in [
+        with(
+            Radii {
+                stiffness,
+                mass: none.clone(),
+            },
+            false,
+        ),
+        with(
+            Radii {
+                stiffness: none,
+                mass,
+            },
+            false,
+        ),
+        with(Radii::NONE, true),
+    ] {
+        let parts = parts_of(&system);
+        let condensation = condensation(&parts, &rational(4, 5), 40);
+        let members: Vec<FrictionParts> = (0..9).map(|k| parts_of(&member(&system, k))).collect();
+        assert_members_enclosed(&parts, &members, &condensation, 0);
+
+        let forgetful = parts_of(&system.middle());
+        let outside = std::panic::catch_unwind(|| {
+            assert_members_enclosed(&forgetful, &members, &condensation, 0);
+        });
+        assert!(outside.is_err());
+    }
+}
+
+/// An anchor that serves an unbounded piece has no reach.
+#[test]
+fn a_piece_without_end_is_refused_where_there_are_radii() {
+    let parts = parts_of(&system_with_radii());
+    let condensation = condensation(&parts, &rational(4, 5), 40);
+    let both = [&parts.plain, &parts.friction];
+    let [lo, hi] = interval();
+    let zero = whole(0);
+    for (anchor, lo, hi, is_bounded) in [
+        (0, &lo, Some(&hi), true),
+        (0, &lo, None, false),
+        (1, &lo, None, true),
+        (1, &zero, Some(&hi), false),
+    ] {
+        let pencil = PencilParts {
+            rows: &both,
+            radii: parts.radii.as_ref(),
+            pieces: &[AnchoredPiece {
+                anchor: Some(anchor),
+                lo: lo.clone(),
+                hi: hi.cloned(),
+            }],
+        };
+        let anchors = anchors(pencil, Some(&condensation)).unwrap().unwrap();
+        let refused = anchors.expand(anchor).err();
+        let is_refused = matches!(refused, Some(CoverFault::Unbounded { .. }));
+        assert_eq!(is_refused, !is_bounded, "{anchor} {refused:?}");
     }
 }
 

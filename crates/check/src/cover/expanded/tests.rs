@@ -36,6 +36,7 @@ fn linear() -> Expanded {
         bound_bits: 0,
         coefficients: 4,
         reversed: false,
+        spread: None,
     }
 }
 
