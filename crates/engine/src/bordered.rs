@@ -179,7 +179,7 @@ impl<'a> BoxCorner<'a> {
         BoxCorner {
             vectors,
             m: &ends.m[end],
-            r: ends.r.as_ref(),
+            r: ends.radius(end),
             is_mirrored: false,
         }
     }
@@ -374,7 +374,7 @@ mod tests {
         let mut radii = vec![vec![0.0; 3]; 3];
         radii[2][0] = 0.5;
         ends.m[0] = matrix();
-        ends.r = Some(radii);
+        ends.r = Some([radii.clone(), radii]);
         let corner = BoxCorner::of(&ends, 0, &vectors);
         assert_relative_eq!(corner.left_residual(&[2.0, 1.0]), 1.0, max_relative = 1e-9);
         let radius = corner.row_times_v(2).radius;

@@ -19,6 +19,7 @@
 //! depend on t. Nothing is proved here.
 
 use crate::dense::transposed;
+use crate::search::complete::pieces::expansion::{ChordEnds, Expansion};
 use crate::search::complete::pieces::matrix::{SquareMatrix, principal_block, times};
 use crate::search::complete::pieces::skyline::dot;
 use crate::tolerance::{NEWTON_CONVERGED, SIGN_NOISE};
@@ -57,9 +58,9 @@ pub(crate) struct BranchPoint {
     /// u, the left null vector on the support.
     pub(crate) left: Vec<f64>,
     /// u' T_t x.
-    of_t: f64,
+    pub(crate) of_t: f64,
     /// u' T1 x.
-    of_mu: f64,
+    pub(crate) of_mu: f64,
     /// A position where x_i or y_i has the wrong sign.
     pub(crate) violated: Option<usize>,
 }
@@ -73,6 +74,23 @@ impl BranchPoint {
     /// dt / d mu along the support.
     pub(crate) fn slope_of_t(&self) -> f64 {
         -self.of_mu / self.of_t
+    }
+
+    /// The largest |u' (T - T') x| over what is known of the matrices T' of members.
+    pub(crate) fn spread_of_null_vector(&self, expansions: &[Expansion; 2]) -> f64 {
+        let ends = expansions.each_ref().map(|part| part.ends(self.t, self.t));
+        let here = ChordEnds::at_friction(ends.each_ref(), self.mu);
+        let Some(radius) = here.radius(0) else {
+            return 0.0;
+        };
+
+        let mut sum = 0.0;
+        for (&i, u) in self.support.iter().zip(&self.left) {
+            for &j in &self.support {
+                sum += u.abs() * radius[i][j] * self.x[j];
+            }
+        }
+        sum
     }
 
     /// The support with one position put in or taken out.

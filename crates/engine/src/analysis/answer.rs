@@ -6,6 +6,7 @@ use super::critical::Critical;
 use super::divergence::{Divergence, Verdict};
 use super::evidence::Proof;
 use super::flutter::Flutter;
+use super::members::Members;
 use super::ranges::{Range, Sample};
 use super::stability::Stability;
 use super::threshold::StaticThreshold;
@@ -43,6 +44,8 @@ pub struct Analysis {
     pub unbounded: Option<UnboundedGrowth>,
     /// Up to which mu the equilibrium is proved to be stable; `None` where that is proved of no mu.
     pub stability: Option<Stability>,
+    /// What is proved of every member of a system whose data have radii.
+    pub members: Option<Members>,
     /// Where in mu divergence exists.
     pub ranges: Vec<Range>,
     /// The decided values of mu behind the ranges.

@@ -95,6 +95,7 @@ pub(super) fn nothing_slips(
     };
 
     Analysis {
+        members: None,
         warnings: Vec::new(),
         name,
         problem_sha256: None,

@@ -726,7 +726,7 @@ fn window_about(mu: f64, half_width: f64) -> Option<Window> {
 }
 
 /// A short number at most mu (1 - gap), and within a tenth of the gap of it.
-fn short_bound(mu: f64, gap: f64) -> Option<Rational> {
+pub(super) fn short_bound(mu: f64, gap: f64) -> Option<Rational> {
     let target = mu * (1.0 - gap);
     let unit = (0.1 * gap * mu).log2().floor().exp2();
     let bound = (target / unit).floor() * unit;

@@ -6,6 +6,7 @@
 //!
 //! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
 
+use super::absence::MemberRadii;
 use super::conditions::{DefiniteUntil, Necessary, condensed};
 use mceip_model::reduction::{mu_family, zero_variables};
 use mceip_model::{ModelError, MuFamily, System, ZeroVariables};
@@ -18,12 +19,24 @@ pub(super) struct Families {
     with_zero_free: Option<MuFamily>,
     /// The variables of the particles with zero reaction.
     pub(super) zero: Vec<ZeroVariables>,
+    /// How far members may be from them, where the data have radii.
+    pub(super) radii: Option<MemberRadii>,
 }
 
 impl Families {
+    /// Those in the middle of all members.
+    ///
     /// # Errors
     /// As [`mu_family`].
     pub(super) fn of(system: &System) -> Result<Families, ModelError> {
+        let radii = MemberRadii::of(system)?;
+        let middle;
+        let system = if radii.is_some() {
+            middle = system.middle();
+            &middle
+        } else {
+            system
+        };
         let zero = zero_variables(system);
         let with_zero_free = if zero.is_empty() {
             None
@@ -35,6 +48,7 @@ impl Families {
             own: mu_family(system)?,
             with_zero_free,
             zero,
+            radii,
         })
     }
 

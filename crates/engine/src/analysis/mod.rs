@@ -24,6 +24,7 @@ mod families;
 mod flutter;
 mod follow;
 mod json;
+mod members;
 mod model;
 mod modes;
 mod presence;
@@ -41,6 +42,7 @@ pub use error::AnalysisError;
 pub use evidence::{Evidence, Proof, ProofCertificate};
 pub use flutter::{Flutter, Onset, Oscillation};
 pub use json::ANALYSIS_FORMAT;
+pub use members::{FirstOrder, MemberCost, Members, UncertainNumber};
 pub use model::{AnalysisOptions, MAX_SAMPLES};
 pub use modes::{Mode, ZeroMode};
 pub use ranges::{Range, Sample};
@@ -52,7 +54,7 @@ pub use unbounded::UnboundedGrowth;
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
-use critical::{BranchStart, KnownOfSystem};
+use critical::{BranchStart, CriticalFound, KnownOfSystem};
 use divergence::divergence;
 use families::Families;
 use mceip_check::certificate::{Certificate, StabilityCertificate};
@@ -84,43 +86,38 @@ pub fn analyse(
         return Ok(by_theorem::nothing_slips(name, system, friction));
     }
 
+    let with_radii = system;
+    let given = (!system.is_exact()).then(|| system.as_given());
+    let system = given.as_ref().unwrap_or(system);
     let model = AnalysisModel {
         system,
         options,
         earlier: None,
         watch: *watch,
     };
-    let (families, necessary) = families_and_condition(&model)?;
-    let condensed = families.condensed(&necessary);
-
-    let at_friction = AtFriction::decide(&model, &families, &necessary, friction)?;
-    let mut proofs = Vec::from_iter(at_friction.proof);
-    let mut starts = at_friction.starts;
-
-    let at_zero = model.problem(None)?;
-    let found = model.complete("static threshold, all mu >= 0", &at_zero, Some("mu"))?;
-    let threshold = StaticThreshold::of(&found, proofs.len());
-    let slip = families.own.stiffness.slip();
-    starts.extend(self::starts(&found, &slip, |value| [0.0, value]));
-    proofs.push(proof(&model, "mu", at_zero, found));
-
-    watch.report(&Progress::stage(
-        "critical mu: all lambda^2 >= 0 and all smaller mu",
-    ));
-    let known = KnownOfSystem {
-        families: &families,
-        necessary: &necessary,
-        friction,
-        problem: &at_friction.problem,
-        divergence: &at_friction.divergence,
-        threshold: &threshold,
-        starts,
-    };
-
+    let mut proofs = Vec::new();
+    let ground = Ground::of(&model, friction, &mut proofs)?;
+    let known = ground.known(friction);
     let found = critical::critical(&model, &known, &mut proofs)?;
+    let members = match &given {
+        None => None,
+        Some(_) => Some(self::members(
+            &model,
+            with_radii,
+            friction,
+            &found,
+            &mut proofs,
+        )?),
+    };
+    let Ground {
+        families,
+        necessary,
+        ..
+    } = &ground;
+    let condensed = families.condensed(necessary);
     let of_ranges = ranges::ranges(&model, &known, found, &mut proofs)?;
     let critical = of_ranges.critical;
-    let unbounded = unbounded::unbounded(&model, &necessary, &critical, &mut proofs)?;
+    let unbounded = unbounded::unbounded(&model, necessary, &critical, &mut proofs)?;
 
     let stability = stability(&model, &known, &mut proofs);
 
@@ -130,8 +127,14 @@ pub fn analyse(
         watch.report(&Progress::stage(
             "flutter: eigenvalues with all particles slipping",
         ));
-        flutter::flutter(&families, friction)
+        flutter::flutter(families, friction)
     };
+    let Ground {
+        families,
+        necessary,
+        at_friction,
+        threshold,
+    } = ground;
 
     Ok(Analysis {
         name,
@@ -148,6 +151,7 @@ pub fn analyse(
         critical,
         unbounded,
         stability,
+        members,
         ranges: of_ranges.ranges,
         samples: of_ranges.samples,
         necessary,
@@ -156,6 +160,83 @@ pub fn analyse(
         proofs,
         interrupted: watch.is_cancelled(),
     })
+}
+
+/// What every search for the critical mu of one body begins with.
+struct Ground {
+    families: Families,
+    necessary: Necessary,
+    at_friction: AtFriction,
+    threshold: StaticThreshold,
+}
+
+impl Ground {
+    fn of(
+        model: &AnalysisModel<'_>,
+        friction: &Rational,
+        proofs: &mut Vec<Proof>,
+    ) -> Result<Ground, AnalysisError> {
+        let (families, necessary) = families_and_condition(model)?;
+        let mut at_friction = AtFriction::decide(model, &families, &necessary, friction)?;
+        proofs.extend(at_friction.proof.take());
+
+        let at_zero = model.problem(None)?;
+        let found = model.complete("static threshold, all mu >= 0", &at_zero, Some("mu"))?;
+        let threshold = StaticThreshold::of(&found, proofs.len());
+        let slip = families.own.stiffness.slip();
+        let of_threshold = starts(&found, &slip, |value| [0.0, value]);
+        at_friction.starts.extend(of_threshold);
+        proofs.push(proof(model, "mu", at_zero, found));
+
+        let stage = "critical mu: all lambda^2 >= 0 and all smaller mu";
+        model.watch.report(&Progress::stage(stage));
+        Ok(Ground {
+            families,
+            necessary,
+            at_friction,
+            threshold,
+        })
+    }
+
+    fn known<'a>(&'a self, friction: &'a Rational) -> KnownOfSystem<'a> {
+        KnownOfSystem {
+            families: &self.families,
+            necessary: &self.necessary,
+            friction,
+            problem: &self.at_friction.problem,
+            divergence: &self.at_friction.divergence,
+            threshold: &self.threshold,
+            starts: self.at_friction.starts.clone(),
+        }
+    }
+}
+
+/// What is proved of every member of a system with radii; `found` is known of the body as given.
+fn members(
+    model: &AnalysisModel<'_>,
+    with_radii: &System,
+    friction: &Rational,
+    found: &CriticalFound,
+    proofs: &mut Vec<Proof>,
+) -> Result<Members, AnalysisError> {
+    let middle = with_radii.middle();
+    let has_own_factors = middle
+        .particles()
+        .iter()
+        .zip(model.system.particles())
+        .all(|(p, q)| p.friction_factor == q.friction_factor);
+    if has_own_factors {
+        return members::members(model, with_radii, friction, found, proofs);
+    }
+
+    // The body in the middle has other factors.
+    let of_middle = AnalysisModel {
+        system: &middle,
+        ..*model
+    };
+    let ground = Ground::of(&of_middle, friction, &mut Vec::new())?;
+    let found = critical::critical(&of_middle, &ground.known(friction), &mut Vec::new())?;
+    members::members(model, with_radii, friction, &found, proofs)
 }
 
 /// The first answer of [`analyse`] alone: divergence at a mu, with the certificate where a search

@@ -38,6 +38,7 @@ use crate::{
     ReducedVariable, System, Unknown, ZeroPart, ZeroVariables,
 };
 use mceip_exact::{Rational, Sparse};
+use num_traits::Signed as _;
 
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
@@ -99,6 +100,29 @@ pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
         stiffness: family(system.stiffness())?,
         mass: system.mass().map(family).transpose()?,
         variables: changes.variables,
+    })
+}
+
+/// How far (K0, K1) and (M0, M1) of a member may be from those in the middle
+/// ([`System::middle`]), entry by entry, but for its friction factors: |T|'R|T| and |F|'R|T|.
+///
+/// # Errors
+/// [`ModelError::NothingSlips`].
+pub fn radii_family(system: &System) -> Result<MuFamily, ModelError> {
+    let middle = system.middle();
+    middle.require_for(Unknown::Mu)?;
+    let changes = Changes::of(&middle).magnitudes();
+    let order = system.dofs();
+    let family = |radius: &Option<Sparse>| {
+        let none = Sparse::zeros(order, order);
+        let Blocks { constant, slope } = changes.blocks(radius.as_ref().unwrap_or(&none));
+        Pencil::new(constant, slope, changes.free())
+    };
+
+    Ok(MuFamily {
+        stiffness: family(&system.radii().stiffness)?,
+        mass: Some(family(&system.radii().mass)?),
+        variables: Vec::new(),
     })
 }
 
@@ -208,6 +232,17 @@ impl Changes {
             self.friction.add(place, &against_normal);
         }
         self.variables.push(variable);
+    }
+
+    /// |T| and |F|.
+    fn magnitudes(mut self) -> Changes {
+        for ByDof(rows) in [&mut self.motion, &mut self.friction] {
+            for (_, coefficient) in rows.iter_mut().flatten() {
+                *coefficient = coefficient.abs();
+            }
+        }
+
+        self
     }
 
     /// The free variables of the pencil.

@@ -8,6 +8,6 @@ mod eliminate;
 mod lift;
 mod lines;
 
-pub use eliminate::{mu_family, reduce, reduce_system, variables, zero_variables};
+pub use eliminate::{mu_family, radii_family, reduce, reduce_system, variables, zero_variables};
 pub use lift::{Lifted, lift};
 pub use lines::{Line, LineViolated, check_lines};

@@ -10,11 +10,14 @@
 //! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
 
 use super::super::families::Families;
+use super::members::{MemberRadii, RadiiOfParts};
+use crate::branch::BranchPoint;
 use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
 use crate::search::complete::pieces::blocks::PencilBlocks;
-use crate::search::complete::pieces::condense::beside;
+use crate::search::complete::pieces::condense::{DefinitePencils, beside};
 use crate::search::complete::pieces::expansion::Expansion;
+use crate::search::complete::pieces::matrix::times;
 use crate::search::complete::pieces::prepared::Prepared;
 use crate::search::complete::pieces::view::{View, common_row_factor, row_factor};
 use crate::tolerance::{FIRST_NEAR, NEARER};
@@ -37,12 +40,15 @@ pub(in crate::analysis) struct HalfLineFamily {
     pencils: [Pencil; 2],
     /// The same of the system in which particles with zero reaction are free, if there are such.
     tail_pencils: Option<[Pencil; 2]>,
+    /// The radii of the data, where there are some.
+    radii: Option<MemberRadii>,
     /// The condensation of P0, its anchors moved to `left_friction`, and the pieces.
     prepared: Prepared,
     /// Of each anchor the expansions of T0 and T1; one pair where there are no free variables.
     expansions: Vec<[Expansion; 2]>,
     /// The anchors, each with V for P1.
-    left_friction: Vec<CriticalAnchor>,
+    pub(super) left_friction: Vec<CriticalAnchor>,
+    scales: RowScales,
     pub(in crate::analysis) pieces: Vec<PieceOfHalfLine>,
 }
 
@@ -99,12 +105,25 @@ impl HalfLineFamily {
         } else {
             Some(parts_of(families.of_condition())?)
         };
-        let at_friction = at(tail_pencils.as_ref().unwrap_or(&pencils), friction)?;
+        let radii = families.radii.clone();
+        let of_radii = radii.as_ref().map(MemberRadii::of_parts).transpose()?;
+        let mut at_friction = at(tail_pencils.as_ref().unwrap_or(&pencils), friction)?;
+        let least_free;
+        let mut free = without_friction;
+        if let Some(radii) = &of_radii {
+            at_friction = radii.least_at(&pencils, &at_friction, friction)?;
+            least_free = radii.least_free(without_friction)?;
+            free = &least_free;
+        }
+        let definite = DefinitePencils {
+            free,
+            whole: &at_friction,
+        };
 
         let body = Body::Pencil(without_friction.clone());
         let window = Window::all();
         let problem = Problem::new(body, Unknown::Lambda2, window.clone())?;
-        let mut prepared = Prepared::of_family(&problem, without_friction, &at_friction, PIECES)?;
+        let mut prepared = Prepared::of_family(&problem, without_friction, definite, PIECES)?;
         prepared.view.zero.clone_from(&families.zero);
 
         if prepared.is_expanded() {
@@ -161,19 +180,33 @@ impl HalfLineFamily {
             }
         }
 
-        let scales = RowScales::of(&pencils)?;
-        let expansions = expansions
+        let scales = RowScales::of(&pencils, of_radii.as_ref())?;
+        let mut expansions: Vec<[Expansion; 2]> = expansions
             .into_iter()
             .map(|pair| scales.applied_to(pair))
             .collect();
 
         let pieces = pieces_of(&prepared);
+        if let Some(radii) = &of_radii {
+            for (number, pair) in expansions.iter_mut().enumerate() {
+                let factors = scales.factors(pair[0].reversed);
+                let Some(anchor) = left_friction.get(number) else {
+                    radii.spread_linear(pair, factors);
+                    continue;
+                };
+                let names_it = |piece: &&PieceOfHalfLine| piece.anchor == Some(number);
+                let served: Vec<&PieceOfHalfLine> = pieces.iter().filter(names_it).collect();
+                radii.spread_about(pair, anchor, &served, factors);
+            }
+        }
         Ok(HalfLineFamily {
             pencils,
             tail_pencils,
+            radii,
             prepared,
             expansions,
             left_friction,
+            scales,
             pieces,
         })
     }
@@ -187,6 +220,25 @@ impl HalfLineFamily {
     pub(in crate::analysis) fn expansions(&self, anchor: Option<usize>) -> &[Expansion; 2] {
         let named = anchor.and_then(|k| self.expansions.get(k));
         named.unwrap_or(&self.expansions[0])
+    }
+
+    /// The anchor of the piece that holds a value of lambda^2.
+    pub(in crate::analysis) fn anchor(&self, t: f64) -> Option<usize> {
+        let holds = |hi: &Option<_>| hi.as_ref().is_none_or(|hi| t < to_f64(hi));
+        let piece = self.pieces.iter().find(|piece| holds(&piece.hi));
+        piece.and_then(|piece| piece.anchor)
+    }
+
+    /// What the slip rows of the pencils as given are multiplied by about a value.
+    pub(super) fn row_factors(&self, t: f64) -> &[f64] {
+        let [first, _] = self.expansions(self.anchor(t));
+        self.scales.factors(first.reversed)
+    }
+
+    /// T1 x of a solution, rows scaled as those of the expansions.
+    pub(super) fn friction_part_times(&self, point: &BranchPoint) -> Vec<f64> {
+        let [_, second] = self.expansions(self.anchor(point.t));
+        times(&second.at(point.t), &point.x)
     }
 
     /// Is the last piece closed by a tail?
@@ -214,7 +266,7 @@ impl HalfLineFamily {
             for (i, row) in condensed.iter_mut().enumerate() {
                 let constant = &self.pencils[0];
                 let slope = &self.pencils[1];
-                let factor = to_f64(&common_row_factor(&[constant, slope], slip[i]));
+                let factor = to_f64(&common_row_factor(&[constant, slope], &[], slip[i]));
                 for (j, entry) in row.iter_mut().enumerate() {
                     let products = rows[i].iter().zip(&solved[j]);
                     let eliminated: f64 = products.map(|(a, b)| a * b).sum();
@@ -274,8 +326,8 @@ impl HalfLineFamily {
     /// The evidence that the symmetric part is definite from a value on, at both frictions.
     fn tail(&self, value: &Rational, [from, below]: [&Rational; 2]) -> Option<CriticalTail> {
         let pencils = self.tail_pencils.as_ref().unwrap_or(&self.pencils);
-        let at_from = at(pencils, from).ok()?;
-        let at_below = at(pencils, below).ok()?;
+        let at_from = self.least_at(pencils, from)?;
+        let at_below = self.least_at(pencils, below)?;
         Some(CriticalTail {
             from: Number(value.clone()),
             factor: definite_at(&at_from, value)?,
@@ -283,6 +335,20 @@ impl HalfLineFamily {
             mass_factor: semidefinite(at_from.b())?,
             mass_factor_below: semidefinite(at_below.b())?,
         })
+    }
+}
+
+impl HalfLineFamily {
+    /// A pencil whose symmetric part is at most that of each member at a friction.
+    fn least_at(&self, pencils: &[Pencil; 2], friction: &Rational) -> Option<Pencil> {
+        let given = at(pencils, friction).ok()?;
+        match &self.radii {
+            None => Some(given),
+            Some(radii) => {
+                let radii = radii.of_parts().ok()?;
+                radii.least_at(pencils, &given, friction).ok()
+            }
+        }
     }
 }
 
@@ -306,7 +372,7 @@ pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, Com
 
 /// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of
 /// the first.
-fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], CompleteError> {
+pub(super) fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], CompleteError> {
     let stiffness = &family.stiffness;
     let mass = family.mass.as_ref().ok_or(ModelError::Missing {
         equation: "E12",
@@ -351,31 +417,52 @@ fn at([constant, slope]: &[Pencil; 2], friction: &Rational) -> Result<Pencil, Co
 /// What turns the rows of the expansions, each scaled by its own pencil, into rows with one common
 /// scale.
 struct RowScales {
-    /// For T0 and T1, by position.
-    direct: [Vec<f64>; 2],
-    reversed: [Vec<f64>; 2],
+    direct: PartScales,
+    reversed: PartScales,
+}
+
+/// Factors of rows by position.
+struct PartScales {
+    /// What the rows of T0 and T1 are multiplied by, which have a scale of their own.
+    of_parts: [Vec<f64>; 2],
+    /// What the rows of the pencils as given are multiplied by.
+    common: Vec<f64>,
 }
 
 impl RowScales {
-    fn of(pencils: &[Pencil; 2]) -> Result<RowScales, CompleteError> {
-        let mut exchanged = Vec::new();
-        for pencil in pencils {
+    /// `radii` count where denominators are cleared.
+    fn of(
+        pencils: &[Pencil; 2],
+        radii: Option<&RadiiOfParts<'_>>,
+    ) -> Result<RowScales, CompleteError> {
+        let exchanged = |pencil: &Pencil| {
             let free = pencil.free().to_vec();
-            exchanged.push(Pencil::new(pencil.b().clone(), pencil.a().clone(), free)?);
-        }
-
+            Pencil::new(pencil.b().clone(), pencil.a().clone(), free)
+        };
         let [constant, slope] = pencils;
+        let reversed = [exchanged(constant)?, exchanged(slope)?];
+
+        let radii: Vec<&Pencil> = radii.into_iter().flat_map(|r| &r.pencils).collect();
         Ok(RowScales {
-            direct: scales(&[constant, slope]),
-            reversed: scales(&[&exchanged[0], &exchanged[1]]),
+            direct: PartScales::of(&[constant, slope], &radii),
+            reversed: PartScales::of(&[&reversed[0], &reversed[1]], &radii),
         })
+    }
+
+    /// What the rows of the pencils as given are multiplied by.
+    fn factors(&self, reversed: bool) -> &[f64] {
+        if reversed {
+            &self.reversed.common
+        } else {
+            &self.direct.common
+        }
     }
 
     fn applied_to(&self, [first, second]: [Expansion; 2]) -> [Expansion; 2] {
         let scales = if first.reversed {
-            &self.reversed
+            &self.reversed.of_parts
         } else {
-            &self.direct
+            &self.direct.of_parts
         };
 
         [
@@ -385,17 +472,21 @@ impl RowScales {
     }
 }
 
-/// The common factor of each slip row over that of either pencil.
-fn scales(pencils: &[&Pencil; 2]) -> [Vec<f64>; 2] {
-    pencils.map(|pencil| {
-        let mut scales = Vec::new();
-        for i in pencil.slip() {
-            let common = common_row_factor(pencils, i);
-            scales.push(to_f64(&(common / row_factor(pencil, i))));
-        }
+impl PartScales {
+    fn of(pencils: &[&Pencil; 2], radii: &[&Pencil]) -> PartScales {
+        let slip = pencils[0].slip().into_iter();
+        let common: Vec<Rational> = slip.map(|i| common_row_factor(pencils, radii, i)).collect();
+        let of_part = |pencil: &Pencil| {
+            let slip = pencil.slip().into_iter().zip(&common);
+            slip.map(|(i, common)| to_f64(&(common / row_factor(pencil, i))))
+                .collect()
+        };
 
-        scales
-    })
+        PartScales {
+            of_parts: pencils.map(of_part),
+            common: common.iter().map(to_f64).collect(),
+        }
+    }
 }
 
 fn pieces_of(prepared: &Prepared) -> Vec<PieceOfHalfLine> {

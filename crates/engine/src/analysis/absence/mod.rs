@@ -4,6 +4,7 @@
 //! | file | what |
 //! |---|---|
 //! | `family` | T(t, mu) = T0(t) + mu T1(t), condensed about common anchors |
+//! | `members` | what the radii of the data add to it |
 //! | `boxes` | what the search over boxes of (t, mu) does with decided ones |
 //!
 //! With particles of zero reaction T is that of the split form, and supports are those of its
@@ -13,6 +14,7 @@
 
 mod boxes;
 mod family;
+mod members;
 
 use super::families::Families;
 use crate::run::{OnProgress, Progress, Watch, in_threads};
@@ -30,6 +32,7 @@ use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_exact::Rational;
 use mceip_model::Problem;
 use mceip_model::file::Number;
+pub(super) use members::MemberRadii;
 use rayon::prelude::*;
 
 /// How much work the cover may take.
@@ -494,7 +497,7 @@ mod tests {
                     for (j, entry) in row.iter().enumerate() {
                         let distance = (entry - part.m[0][i][j]).abs();
                         assert!(
-                            distance <= part.r.as_ref().map_or(0.0, |r| r[i][j]),
+                            distance <= part.radius(0).map_or(0.0, |r| r[i][j]),
                             "{middle} {i} {j}: {distance}"
                         );
                     }

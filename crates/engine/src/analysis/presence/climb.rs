@@ -12,6 +12,7 @@ use super::curve::Curves;
 use super::witness::{CurveBox, PresenceWitness};
 use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::run::Watch;
+use crate::search::complete::pieces::expansion::Expansion;
 use crate::tolerance::LEAST_STRETCH;
 use mceip_check::certificate::PresencePiece;
 
@@ -192,11 +193,11 @@ impl Climb<'_> {
 
         let matrix = self.curves.at(middle.t)?.matrix(middle.mu);
         let witness = PresenceWitness::of(&matrix, &middle)?;
-        let anchor = self.curves.anchor(middle.t);
+        let anchor = self.curves.family.anchor(middle.t);
         let expansions = self.curves.expansions(middle.t);
         let index = &self.curves.family.view().index;
 
-        let ends = self.ends([below, &middle, above]);
+        let ends = self.ends([below, &middle, above], expansions);
         for share in BEYOND_CURVE {
             let t = beyond_curve(ends, share);
             if expansions[0].reversed && t[0] <= 0.0 {
@@ -216,16 +217,33 @@ impl Climb<'_> {
         None
     }
 
-    /// The least and the largest lambda^2 of three points of a curve, apart by [`FLAT`] at least.
-    fn ends(&self, [below, middle, above]: [&BranchPoint; 3]) -> [f64; 2] {
+    /// The least and the largest lambda^2 of three points of a curve, apart by [`FLAT`] at least,
+    /// and by what the curves of members may be off.
+    fn ends(
+        &self,
+        [below, middle, above]: [&BranchPoint; 3],
+        expansions: &[Expansion; 2],
+    ) -> [f64; 2] {
         let lowest = below.t.min(middle.t).min(above.t);
         let highest = below.t.max(middle.t).max(above.t);
 
         let relative_length = (above.mu - below.mu) / middle.mu;
         let flat = FLAT * (middle.t + self.curves.unit()) * relative_length;
+        let spread = [below, above].map(|point| spread_of_t(point, expansions));
+        let flat = flat.max(2.0 * spread[0].max(spread[1]));
         let missing = (flat - (highest - lowest)).max(0.0);
         [lowest - 0.5 * missing, highest + 0.5 * missing]
     }
+}
+
+/// How far from a point of a curve those of members are in lambda^2, to first order; 0 where the
+/// data are exact.
+fn spread_of_t(point: &BranchPoint, expansions: &[Expansion; 2]) -> f64 {
+    if expansions[0].spread.is_none() {
+        return 0.0;
+    }
+
+    (point.spread_of_null_vector(expansions) / point.of_t).abs()
 }
 
 /// An interval of lambda^2 that reaches beyond the ends of a curve by a share of their distance.

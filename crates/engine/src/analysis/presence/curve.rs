@@ -7,7 +7,6 @@ use super::super::absence::HalfLineFamily;
 use crate::branch::{BranchPencils, BranchPoint, BranchUnknown, Slice};
 use crate::search::complete::pieces::expansion::Expansion;
 use crate::search::complete::pieces::matrix::{SquareMatrix, combined, times};
-use mceip_exact::to_f64;
 
 /// The curves of a system.
 #[derive(Clone, Copy)]
@@ -16,16 +15,8 @@ pub(super) struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    /// The anchor of the piece that holds a value of lambda^2.
-    pub(super) fn anchor(&self, t: f64) -> Option<usize> {
-        let pieces = &self.family.pieces;
-        let holds = |hi: &Option<_>| hi.as_ref().is_none_or(|hi| t < to_f64(hi));
-        let piece = pieces.iter().find(|piece| holds(&piece.hi));
-        piece.and_then(|piece| piece.anchor)
-    }
-
     pub(super) fn expansions(&self, t: f64) -> &'a [Expansion; 2] {
-        self.family.expansions(self.anchor(t))
+        self.family.expansions(self.family.anchor(t))
     }
 
     /// The solution of a point's support at another mu.

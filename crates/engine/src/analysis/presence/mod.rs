@@ -126,6 +126,39 @@ impl<'a> Prover<'a> {
         }
     }
 
+    /// Follows the curves of the solution of smallest mu from a mu above it as far as `to`, and
+    /// from the first mu that is proved back towards that solution.
+    pub(super) fn climb_about(&mut self, smallest: &BranchStart, from: f64, to: f64) {
+        let from = short_multiple(from, 0.5 * PRESENCE_START * smallest.mu);
+        for side in [1.0, -1.0] {
+            let Some(start) = self.beside(smallest, side, from) else {
+                continue;
+            };
+
+            let climb = self.climb();
+            let upwards = climb.prove(&start, to);
+            let first = upwards.stretches.first().map(|stretch| stretch.low);
+            let back = first.and_then(|low| climb.walk(&start, low));
+            let downwards = back.map(|point| climb.prove(&point, smallest.mu));
+            self.keep(upwards);
+            downwards
+                .into_iter()
+                .for_each(|followed| self.keep(followed));
+        }
+    }
+
+    /// The solution of smallest mu, on the curve that a guess is near.
+    pub(super) fn smallest(&self, guess: &BranchStart) -> Option<BranchPoint> {
+        let place = [guess.lambda2, guess.mu];
+        let curves = self.climb().curves;
+        curves.near(BranchUnknown::Friction, place, &guess.x)
+    }
+
+    /// The condensation.
+    pub(super) fn family(&self) -> &HalfLineFamily {
+        &self.family
+    }
+
     /// Closes what gaps it can in [from, to] from these solutions.
     pub(super) fn close(&mut self, from: f64, to: f64, starts: &[BranchStart]) -> bool {
         let before = self.stretches.len();

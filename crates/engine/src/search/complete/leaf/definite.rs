@@ -34,13 +34,13 @@ pub(crate) fn leaf(corners: &[ChordEnds], states: &[VariableState]) -> Option<No
 
 /// Is `sign` sym(T) positive definite on what may be in the support, at both ends?
 pub(crate) fn holds_at_both_ends(ends: &ChordEnds, states: &[VariableState], sign: f64) -> bool {
-    let radius = ends.r.as_ref();
-    if !is_definite(&ends.m[0], radius, states, sign) {
+    if !is_definite(&ends.m[0], ends.radius(0), states, sign) {
         return false;
     }
 
-    let vanishes_at_infinity = ends.is_half_line() && vanishes(&ends.m[1], states);
-    vanishes_at_infinity || is_definite(&ends.m[1], radius, states, sign)
+    let is_exact = ends.radius(1).is_none_or(|radius| vanishes(radius, states));
+    let vanishes_at_infinity = ends.is_half_line() && is_exact && vanishes(&ends.m[1], states);
+    vanishes_at_infinity || is_definite(&ends.m[1], ends.radius(1), states, sign)
 }
 
 /// Is the symmetric part exactly zero on what may be in the support? Enough at an infinite end.

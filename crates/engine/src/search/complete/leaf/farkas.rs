@@ -165,7 +165,7 @@ impl FarkasColumns {
     /// Of one value, given as an interval of width zero.
     fn at_lower_end(point: &ChordEnds, states: &[VariableState]) -> FarkasColumns {
         let mut columns = FarkasColumns { list: Vec::new() };
-        columns.add(&point.m[0], point.r.as_ref(), states, false);
+        columns.add(&point.m[0], point.radius(0), states, false);
         columns
     }
 
@@ -174,8 +174,8 @@ impl FarkasColumns {
     pub(crate) fn of(corners: &[ChordEnds], states: &[VariableState]) -> FarkasColumns {
         let mut columns = FarkasColumns { list: Vec::new() };
         for ends in corners {
-            columns.add(&ends.m[0], ends.r.as_ref(), states, false);
-            columns.add(&ends.m[1], ends.r.as_ref(), states, ends.is_half_line());
+            columns.add(&ends.m[0], ends.radius(0), states, false);
+            columns.add(&ends.m[1], ends.radius(1), states, ends.is_half_line());
         }
 
         columns

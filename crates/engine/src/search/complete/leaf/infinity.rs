@@ -79,14 +79,14 @@ fn chord(expansion: &Expansion, ends: &ChordEnds) -> ChordEnds {
     // that at 2 lo.
     let radius = expansion
         .ends(ends.lo, 2.0 * ends.lo)
-        .r
-        .map(|radius| scaled(&radius, 2.0));
+        .radius(1)
+        .map(|radius| scaled(radius, 2.0));
     let slope = radius.as_ref().map(|radius| scaled(radius, 2.0));
     ChordEnds {
         lo: ends.lo,
         hi: ends.hi,
         m: [ends.m[0].clone(), scaled(&ends.m[1], ends.lo)],
-        r: radius,
+        r: radius.map(|radius| [radius.clone(), radius]),
         slope,
     }
 }

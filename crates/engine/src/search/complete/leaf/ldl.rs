@@ -64,7 +64,7 @@ pub(crate) fn half_line_leaf(
     ends: &ChordEnds,
 ) -> Option<Node> {
     let states = &region.states;
-    if !ends.is_half_line() || !is_definite(&ends.m[0], ends.r.as_ref(), states, 1.0) {
+    if !ends.is_half_line() || !is_definite(&ends.m[0], ends.radius(0), states, 1.0) {
         return None;
     }
 

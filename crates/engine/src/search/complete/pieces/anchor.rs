@@ -285,6 +285,7 @@ impl<'a> FreeElimination<'a> {
             caution: 1.0,
             free: right.to_vec(),
             reversed: false,
+            spread: None,
         }
     }
 }

@@ -51,18 +51,38 @@ pub(crate) struct Condensed {
     pub(crate) beyond: Option<Rational>,
 }
 
+/// The pencils of which definiteness is proved: where the data have radii, what is at most each
+/// member.
+#[derive(Clone, Copy)]
+pub(crate) struct DefinitePencils<'a> {
+    /// Its free blocks are bounded from below.
+    pub(crate) free: &'a Pencil,
+    /// Its symmetric part makes a tail.
+    pub(crate) whole: &'a Pencil,
+}
+
+impl<'a> DefinitePencils<'a> {
+    /// The pencil itself.
+    pub(crate) fn own(pencil: &'a Pencil) -> DefinitePencils<'a> {
+        DefinitePencils {
+            free: pencil,
+            whole: pencil,
+        }
+    }
+}
+
 /// Condenses a pencil with free variables.
 ///
 /// # Errors
 /// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
 /// B_ff is indefinite.
 ///
-/// `definite_above` is the pencil whose definiteness makes a tail: this one, or one of a family
-/// with the same free rows. `coarse` is how the anchors are expanded.
+/// `definite` are this pencil, or others of a family with the same free rows. `coarse` is how the
+/// anchors are expanded.
 pub(crate) fn condense(
     pencil: &Pencil,
     window: &Window,
-    definite_above: &Pencil,
+    definite: DefinitePencils<'_>,
     coarse: Precision,
 ) -> Result<Condensed, CompleteError> {
     let blocks = PencilBlocks::of(pencil);
@@ -70,12 +90,14 @@ pub(crate) fn condense(
 
     // The bounds of A_ff and B_ff.
     let first_free = blocks.free[0];
-    let given_stiffness = pencil.a().submatrix(&blocks.free, &blocks.free);
-    let stiffness = stiffness_bound(&blocks);
+    let given_stiffness = definite.free.a().submatrix(&blocks.free, &blocks.free);
+    let others = (!std::ptr::eq(definite.free, pencil)).then(|| PencilBlocks::of(definite.free));
+    let bounded = others.as_ref().unwrap_or(&blocks);
+    let stiffness = stiffness_bound(bounded);
     let stiffness =
         stiffness.ok_or_else(|| without_bound("A_ff", &given_stiffness, &blocks.free))?;
-    let given_mass = pencil.b().submatrix(&blocks.free, &blocks.free);
-    let mass = mass_bound(&blocks.mass, &given_mass);
+    let given_mass = definite.free.b().submatrix(&blocks.free, &blocks.free);
+    let mass = mass_bound(&bounded.mass, &given_mass);
     let mass = mass.ok_or_else(|| without_bound("B_ff", &given_mass, &blocks.free))?;
     let elimination = FreeElimination {
         pencil,
@@ -89,7 +111,7 @@ pub(crate) fn condense(
 
     // What stands above the anchors, and where it begins.
     let above = if window.max().is_none() && !blocks.mass_is_zero {
-        Above::of(pencil, definite_above, elimination.bounds)
+        Above::of(pencil, definite.whole, elimination.bounds)
     } else {
         Above::Nothing
     };
@@ -114,12 +136,12 @@ pub(crate) fn condense(
 
     let low = to_f64(window.min());
     let wide = if lowest_frequency > 0.0 && top.is_finite() {
-        let definite = DefiniteAnchors {
+        let wide = DefiniteAnchors {
             elimination: &elimination,
             lowest_frequency,
             precision,
         };
-        definite.anchors(definite_above, low, top)
+        wide.anchors(definite.whole, low, top)
     } else {
         WideAnchors::none(top)
     };
@@ -421,7 +443,7 @@ fn expansion_of(elimination: &FreeElimination<'_>, anchor: &Anchor) -> Expansion
 }
 
 /// The coefficients of W or V, in doubles.
-fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<SlipColumns> {
+pub(crate) fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<SlipColumns> {
     let coefficients = coefficients.iter();
     coefficients
         .map(|matrix| columns_of(matrix, width))

@@ -41,6 +41,35 @@ pub(crate) struct Expansion {
     pub(crate) free: Vec<Vec<Vec<f64>>>,
     /// Is this T(t) / t in powers of 1 / t - center?
     pub(crate) reversed: bool,
+    /// What a member may be off, where the data have radii.
+    pub(crate) spread: Option<Spread>,
+}
+
+/// How far the matrix of a member may be from that in the middle: within constant + argument *
+/// slope entry by entry, and then row i within a share of what is known of it.
+#[derive(Clone)]
+pub(crate) struct Spread {
+    pub(crate) constant: SquareMatrix,
+    pub(crate) slope: SquareMatrix,
+    pub(crate) shares: Vec<f64>,
+}
+
+impl Spread {
+    /// Adds to the radii of an end, which is the matrix at an argument, or the direction where that
+    /// is infinite.
+    fn add_to(&self, radius: &mut SquareMatrix, m: &SquareMatrix, argument: f64) {
+        for (i, row) in radius.iter_mut().enumerate() {
+            for (j, r) in row.iter_mut().enumerate() {
+                let [constant, slope] = [self.constant[i][j], self.slope[i][j]];
+                *r += if argument.is_infinite() {
+                    slope
+                } else {
+                    constant + argument * slope
+                };
+                *r += self.shares[i] * (m[i][j].abs() + *r);
+            }
+        }
+    }
 }
 
 /// T over an interval: the matrices at both ends, and the radius around the chord between them.
@@ -49,8 +78,8 @@ pub(crate) struct ChordEnds {
     /// Infinite for an unbounded interval, whose `m[1]` is the direction B.
     pub(crate) hi: f64,
     pub(crate) m: [SquareMatrix; 2],
-    /// Radius of each entry; `None` where the chord is exact.
-    pub(crate) r: Option<SquareMatrix>,
+    /// Radius of each entry at both ends; `None` where the chord is exact.
+    pub(crate) r: Option<[SquareMatrix; 2]>,
     /// (hi - lo) T' lies within this of m[1] - m[0]; `None` likewise.
     pub(crate) slope: Option<SquareMatrix>,
 }
@@ -70,10 +99,11 @@ impl ChordEnds {
     /// The ends of T0 + mu T1, given those of T0 and T1 over one interval of t.
     pub(crate) fn at_friction([constant, slope]: [&ChordEnds; 2], friction: f64) -> ChordEnds {
         let m = [0, 1].map(|end| combined(&constant.m[end], friction, &slope.m[end]));
-        let r = match (&constant.r, &slope.r) {
-            (Some(r), Some(r_slope)) => Some(combined(r, friction, r_slope)),
-            (r, r_slope) => r.clone().or(r_slope.clone()),
-        };
+        let none = zeros(constant.m[0].len());
+        let has_radius = constant.r.is_some() || slope.r.is_some();
+        let radius = |part: &ChordEnds, end| part.radius(end).unwrap_or(&none).clone();
+        let at_end = |end| combined(&radius(constant, end), friction, &radius(slope, end));
+        let r = has_radius.then(|| [0, 1].map(at_end));
 
         ChordEnds {
             lo: constant.lo,
@@ -82,6 +112,11 @@ impl ChordEnds {
             r,
             slope: None,
         }
+    }
+
+    /// The radii at an end, where it is not exact.
+    pub(crate) fn radius(&self, end: usize) -> Option<&SquareMatrix> {
+        self.r.as_ref().map(|r| &r[end])
     }
 
     /// Radius of entry (i, j) of (hi - lo) T' about m[1] - m[0].
@@ -133,6 +168,7 @@ impl Expansion {
             caution: 1.0,
             free: Vec::new(),
             reversed: false,
+            spread: None,
         }
     }
 
@@ -148,13 +184,14 @@ impl Expansion {
         Expansion::linear(ends[0].clone(), slope)
     }
 
-    /// The same without its remainder: to look for solutions, not to prove anything.
+    /// The same without its remainder and its spread: to look for solutions, not to prove anything.
     pub(crate) fn without_remainder(&self) -> Expansion {
         Expansion {
             left_residual: Vec::new(),
             right_residual: Vec::new(),
             left_solution: Vec::new(),
             right_rounding: Vec::new(),
+            spread: None,
             ..self.clone()
         }
     }
@@ -245,12 +282,28 @@ impl Expansion {
             lo,
             hi,
             m: [at_lo, at_hi],
+            r: ends.r.map(|[at_hi, at_lo]| [at_lo, at_hi]),
             ..ends
         }
     }
 
-    /// The ends over an interval of the argument.
+    /// The ends over an interval of the argument, with the spread.
     fn between(&self, lo: f64, hi: f64) -> ChordEnds {
+        let mut ends = self.between_without_spread(lo, hi);
+        let Some(spread) = &self.spread else {
+            return ends;
+        };
+
+        let none = || zeros(self.order());
+        let mut r = ends.r.unwrap_or_else(|| [none(), none()]);
+        for (end, argument) in [lo, hi].into_iter().enumerate() {
+            spread.add_to(&mut r[end], &ends.m[end], argument);
+        }
+        ends.r = Some(r);
+        ends
+    }
+
+    fn between_without_spread(&self, lo: f64, hi: f64) -> ChordEnds {
         let lower = self.polynomial(lo);
         if hi.is_infinite() {
             return ChordEnds::exact(lo, hi, [lower, self.coefficients[1].clone()]);
@@ -284,7 +337,7 @@ impl Expansion {
             lo,
             hi,
             m,
-            r: Some(radius),
+            r: Some([radius.clone(), radius]),
             slope: Some(slope),
         }
     }

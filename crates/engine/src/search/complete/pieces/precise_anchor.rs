@@ -243,7 +243,7 @@ fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
 mod tests {
     use super::super::anchor::COARSE;
     use super::*;
-    use crate::search::complete::pieces::condense::condense;
+    use crate::search::complete::pieces::condense::{DefinitePencils, condense};
     use mceip_exact::{Sparse, rational, whole};
     use mceip_model::Window;
 
@@ -267,7 +267,7 @@ mod tests {
         assert_eq!(rows[1].slip[0].at_center, 1.into());
 
         let window = Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = condense(&pencil, &window, &pencil, COARSE)
+        let condensation = condense(&pencil, &window, DefinitePencils::own(&pencil), COARSE)
             .unwrap()
             .condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();

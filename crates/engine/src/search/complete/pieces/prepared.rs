@@ -10,7 +10,7 @@
 //! Called by `complete` (a new search) and `resume` (from the pieces of a certificate).
 
 use super::anchor::{NEAR, OF_FAMILY, OF_WINDOW, Precisions};
-use super::condense::{Condensed, condense, refine, view_of};
+use super::condense::{Condensed, DefinitePencils, condense, refine, view_of};
 use super::expansion::Expansion;
 use super::view::View;
 use crate::reduction::zero_of;
@@ -74,29 +74,30 @@ impl Prepared {
         pencil: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
-        let mut prepared = Prepared::with_precisions(problem, pencil, pencil, count, OF_WINDOW)?;
+        let definite = DefinitePencils::own(pencil);
+        let mut prepared = Prepared::with_precisions(problem, pencil, definite, count, OF_WINDOW)?;
         prepared.view.zero = zero_of(problem);
         Ok(prepared)
     }
 
-    /// The same for the first part of a family in the friction; the tail, if there is one, is to
-    /// hold for another pencil with the same free rows.
+    /// The same for the first part of a family in the friction; the bounds of its free block and
+    /// the tail, if there is one, are to hold for other pencils of the family.
     ///
     /// # Errors
     /// As [`Prepared::new`].
     pub(crate) fn of_family(
         problem: &Problem,
         pencil: &Pencil,
-        definite_above: &Pencil,
+        definite: DefinitePencils<'_>,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
-        Prepared::with_precisions(problem, pencil, definite_above, count, OF_FAMILY)
+        Prepared::with_precisions(problem, pencil, definite, count, OF_FAMILY)
     }
 
     fn with_precisions(
         problem: &Problem,
         pencil: &Pencil,
-        definite_above: &Pencil,
+        definite: DefinitePencils<'_>,
         count: usize,
         precisions: Precisions,
     ) -> Result<Prepared, CompleteError> {
@@ -114,7 +115,7 @@ impl Prepared {
 
         let window = problem.window();
         if !pencil.free().is_empty() {
-            let condensed = condense(pencil, window, definite_above, precisions.coarse)?;
+            let condensed = condense(pencil, window, definite, precisions.coarse)?;
             return Ok(Prepared::condensed(condensed, window, count, precisions));
         }
 

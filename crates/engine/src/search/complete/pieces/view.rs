@@ -151,14 +151,16 @@ impl View {
 
 /// What the checker multiplies row i by: denominators cleared, largest entry of A below one.
 pub(crate) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
-    common_row_factor(&[pencil], i)
+    common_row_factor(&[pencil], &[], i)
 }
 
-/// The same for several pencils whose rows i are multiplied by one factor.
-pub(crate) fn common_row_factor(pencils: &[&Pencil], i: usize) -> Rational {
+/// The same for several pencils whose rows i are multiplied by one factor; it clears the
+/// denominators of their radii as well.
+pub(crate) fn common_row_factor(pencils: &[&Pencil], radii: &[&Pencil], i: usize) -> Rational {
     let of_a = pencils.iter().flat_map(|pencil| pencil.a().row(i));
-    let of_b = pencils.iter().flat_map(|pencil| pencil.b().row(i));
-    let clear = common_denominator(of_a.clone().chain(of_b).map(|(_, v)| v));
+    let all = pencils.iter().chain(radii);
+    let entries = all.flat_map(|pencil| pencil.a().row(i).iter().chain(pencil.b().row(i)));
+    let clear = common_denominator(entries.map(|(_, v)| v));
 
     let mut bits = 1;
     for (_, v) in of_a {
