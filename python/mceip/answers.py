@@ -290,6 +290,41 @@ class Stability:
 
 
 @dataclass(frozen=True)
+class Members:
+    """What is proved of every body within the radii of the data.
+
+    Attributes:
+        absent_below: none of them diverges for a friction coefficient above 0 up to this; None
+            where that is proved of no coefficient.
+        present: each of them diverges for every friction coefficient from the first number to the
+            second; None where that is not proved.
+        middle: the critical friction coefficient in the middle of them, in doubles, or None.
+        width: how far from it theirs may be, to first order in the radii, or None.
+        costs: which numbers of the data that width is due to, and how much each; the largest first.
+    """
+
+    absent_below: Fraction | None
+    present: tuple[Fraction, Fraction] | None
+    middle: float | None
+    width: float | None
+    costs: dict[str, float] = field(repr=False)
+
+
+def members_of(answer: dict[str, Any]) -> Members:
+    """The field `members` of an analysis."""
+    absent = answer["absent"]
+    present = answer["present"]
+    first_order = answer["first_order"] or {"middle": None, "width": None, "costs": []}
+    return Members(
+        None if absent is None else fraction_of(absent["below"]),
+        None if present is None else (fraction_of(present["from"]), fraction_of(present["to"])),
+        first_order["middle"],
+        first_order["width"],
+        {cost["of"]: cost["width"] for cost in first_order["costs"]},
+    )
+
+
+@dataclass(frozen=True)
 class Proof:
     """A certificate that the checker has accepted, with the problem that it belongs to.
 
@@ -466,6 +501,12 @@ class Analysis:
         if answer is None:
             return None
         return Stability(Fraction(0), fraction_of(answer["to"]), answer["of_every_motion"])
+
+    @property
+    def members(self) -> Members | None:
+        """What is proved of every body within the radii of the data; None where they have none."""
+        answer = self.answer["members"]
+        return None if answer is None else members_of(answer)
 
     def __str__(self) -> str:
         return self.summary

@@ -8,15 +8,16 @@
 //! (`Plausibility`); a problem file keeps the warnings, so that `analyze` repeats them, until they
 //! are accepted.
 
-use super::common::{CliError, exit, friction_of, print, text};
+use super::common::{CliError, exit, friction_of, positive_number, print, text};
 use super::output::Output;
 use crate::say::counted;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::{
-    LoadsFile, read_matrix_market, read_particles, write_loads, write_problem,
+    LoadsFile, read_matrix_market, read_particles, read_printed_radius, write_loads, write_problem,
 };
 use mceip_model::{
-    Body, Coordinates, LoadedBody, LoadedParts, Particle, Problem, System, Unknown, Window,
+    Body, ContactState, Coordinates, LoadedBody, LoadedParts, Particle, Problem, Radii, System,
+    Unknown, Window,
 };
 use mceip_paper::calculix::{read_dofs, read_triangle};
 use mceip_paper::{
@@ -24,7 +25,8 @@ use mceip_paper::{
     asymmetry, make_frames_exact, read_candidates, read_contacts, read_nodes, read_steps,
     rows_alone, symmetric_part,
 };
-use std::collections::HashMap;
+use num_traits::One as _;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `convert`.
@@ -71,6 +73,17 @@ pub(super) struct Args {
     /// of the largest entry). The comment in the problem file says so.
     #[arg(long)]
     symmetrize: bool,
+    /// The numbers of K and M are known to half a unit of their last digit: the problem stands for
+    /// all bodies within that (spec/robust.md). Matrix Market only.
+    #[arg(long, conflicts_with_all = ["loads", "within"])]
+    as_printed: bool,
+    /// The numbers of K and M are known to this share of each, as 1e-6.
+    #[arg(long, value_name = "SHARE", conflicts_with = "loads")]
+    within: Option<String>,
+    /// The coefficient of friction of each slip particle is known to this share, as 0.1, independent
+    /// of the others.
+    #[arg(long, value_name = "SHARE", conflicts_with = "loads")]
+    friction_within: Option<String>,
     /// Leave the warnings out of the file: they have been looked at, and the model is meant so.
     #[arg(long, conflicts_with = "strict")]
     accept_warnings: bool,
@@ -162,8 +175,16 @@ fn write_states(
         indices,
         mut changes,
     } = model;
-    let contacts = read_states(&args.contacts, &friction, &indices)?;
+    let mut contacts = read_states(&args.contacts, &friction, &indices)?;
     changes.extend(directions(&contacts.particles));
+    if let Some(share) = &args.friction_within {
+        let share = share_of("friction-within", share)?;
+        contacts
+            .particles
+            .iter_mut()
+            .for_each(|p| within(p, &share));
+    }
+    let radii = radii(args, &stiffness, mass.as_ref())?;
     let displacements = match &args.displacements {
         Some(path) => Some(read_displacements(path, indices.order)?),
         None => None,
@@ -171,6 +192,7 @@ fn write_states(
 
     let alone = rows_alone(&stiffness);
     let system = System::new(stiffness, mass, Some(friction), contacts.particles)?;
+    let system = system.with_radii(radii)?;
     let coordinates = match &args.coordinates {
         Some(path) => {
             let table = read_node_table(path, &indices)?;
@@ -201,6 +223,67 @@ fn write_states(
     let particles = counted(slip, "particle");
     let what = format!("{dofs} degrees of freedom, {particles} in impending slip");
     say_written(args, &what, &changes, &plausibility)
+}
+
+/// How far K and M may be off, as the options say.
+fn radii(args: &Args, stiffness: &Sparse, mass: Option<&Sparse>) -> Result<Radii, CliError> {
+    if let Some(share) = &args.within {
+        let share = share_of("within", share)?;
+        return Ok(Radii {
+            stiffness: Some(Radii::relative(stiffness, &share)),
+            mass: mass.map(|mass| Radii::relative(mass, &share)),
+        });
+    }
+    if !args.as_printed {
+        return Ok(Radii::NONE);
+    }
+
+    let printed = |what, path: &Path| {
+        let source = text(what, path)?;
+        if !source.starts_with("%%") {
+            let expected = "Matrix Market files, of which the digits are known";
+            return Err(CliError::option("as-printed", expected, "another format"));
+        }
+        let radius = read_printed_radius(what, &source).map_err(|e| CliError::file(path, e))?;
+        Ok(larger_of_mirrors(&radius))
+    };
+    Ok(Radii {
+        stiffness: Some(printed("K", &args.stiffness)?),
+        mass: args
+            .mass
+            .as_deref()
+            .map(|mass| printed("M", mass))
+            .transpose()?,
+    })
+}
+
+/// Each entry and its mirror at the larger of the two.
+fn larger_of_mirrors(radius: &Sparse) -> Sparse {
+    let mirror = radius.transpose();
+    let all = radius.entries().chain(mirror.entries());
+    let mut larger: BTreeMap<(usize, usize), Rational> = BTreeMap::new();
+    for (i, j, r) in all {
+        let entry = larger.entry((i, j)).or_default();
+        *entry = r.max(entry).clone();
+    }
+
+    let entries = larger.into_iter().map(|((i, j), r)| (i, j, r));
+    Sparse::from_entries(radius.rows(), radius.cols(), entries)
+}
+
+/// A share of less than 1.
+fn share_of(option: &'static str, given: &str) -> Result<Rational, CliError> {
+    let share = positive_number(given).filter(|share| *share < Rational::one());
+    share.ok_or_else(|| CliError::option(option, "a share between 0 and 1, as 1e-6", given))
+}
+
+/// The friction factor of a slip particle within a share of what it is.
+fn within(particle: &mut Particle, share: &Rational) {
+    if let ContactState::Slip { .. } = particle.state {
+        let factor = &particle.friction_factor;
+        let off = factor * share;
+        particle.friction_factor_range = Some([factor - &off, factor + &off]);
+    }
 }
 
 /// Writes a body under loads.

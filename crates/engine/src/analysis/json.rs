@@ -10,6 +10,7 @@ use super::critical::Unproved;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::flutter::{Flutter, Onset, Oscillation};
+use super::members::MemberCost;
 use super::modes::Mode;
 use super::ranges::{Range, Sample};
 use super::sentences::Sentence;
@@ -242,6 +243,40 @@ impl Analysis {
         }))
     }
 
+    fn members_json(&self, paths: &[String]) -> Option<Value> {
+        let members = self.members.as_ref()?;
+        let absence = members.absent_below.as_ref().map(|(below, evidence)| {
+            json!({
+                "below": below.to_string(),
+                "evidence": self.evidence_json(evidence, paths),
+            })
+        });
+        let presence = members.present.as_ref().map(|([from, to], evidence)| {
+            json!({
+                "from": from.to_string(),
+                "to": to.to_string(),
+                "evidence": self.evidence_json(evidence, paths),
+            })
+        });
+        let first_order = members.first_order.as_ref().map(|first_order| {
+            let cost = |cost: &MemberCost| {
+                json!({ "of": cost.of.text(&self.particles), "width": cost.width })
+            };
+            let costs: Vec<Value> = first_order.costs.iter().map(cost).collect();
+            json!({
+                "middle": first_order.middle,
+                "width": first_order.width,
+                "costs": costs,
+            })
+        });
+
+        Some(json!({
+            "absent": absence,
+            "present": presence,
+            "first_order": first_order,
+        }))
+    }
+
     fn necessary_json(&self) -> Value {
         let necessary = &self.necessary;
         json!({
@@ -280,6 +315,7 @@ impl Analysis {
             "static_threshold": self.threshold_json(),
             "critical": self.critical_json(paths),
             "stability": self.stability_json(paths),
+            "members": self.members_json(paths),
             "ranges": ranges,
             "samples": samples,
             "necessary": self.necessary_json(),

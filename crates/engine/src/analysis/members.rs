@@ -73,6 +73,45 @@ pub enum UncertainNumber {
     FrictionFactor(usize),
 }
 
+impl UncertainNumber {
+    /// As sentences name it, with the names of the particles.
+    pub fn text(self, particles: &[String]) -> String {
+        match self {
+            UncertainNumber::Stiffness(i, j) => format!("K[{i}][{j}]"),
+            UncertainNumber::Mass(i, j) => format!("M[{i}][{j}]"),
+            UncertainNumber::FrictionFactor(particle) => {
+                format!("the friction factor of particle {}", particles[particle])
+            }
+        }
+    }
+}
+
+impl FirstOrder {
+    /// Where the critical mu of members may lie, and what costs most.
+    pub(super) fn text(&self, particles: &[String]) -> String {
+        let costs = self.costs.iter().take(NAMED_COSTS);
+        let costs = costs.map(|cost| {
+            let share = 100.0 * cost.width / self.width;
+            format!("{} ({share:.1} %)", cost.of.text(particles))
+        });
+        let costs: Vec<String> = costs.collect();
+        let most = if costs.is_empty() {
+            String::new()
+        } else {
+            format!("; most is due to {}", costs.join(", "))
+        };
+
+        format!(
+            "Every body within the radii of the data: to first order the critical mu is within \
+             {:.2e} of {:.7}{most}.",
+            self.width, self.middle
+        )
+    }
+}
+
+/// Costs that a sentence names.
+const NAMED_COSTS: usize = 3;
+
 /// Multiples of the first-order width at which bounds are tried, each this much larger than the one
 /// before, and halvings of the gap between the last one in vain and the first that holds.
 const FIRST_MULTIPLE: f64 = 1.05;

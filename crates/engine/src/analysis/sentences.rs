@@ -280,6 +280,7 @@ impl Analysis {
         all.extend(self.say_absence());
         all.extend(self.say_gaps());
         all.extend(self.say_ranges());
+        all.extend(self.say_members());
         all.push(self.say_necessary());
         all.extend(self.say_condensed());
         all.push(self.say_sufficient());
@@ -415,6 +416,54 @@ impl Analysis {
             ),
             evidence: stability.evidence.clone(),
         })
+    }
+
+    /// What is proved of every body within the radii of the data.
+    fn say_members(&self) -> Vec<Sentence> {
+        let Some(members) = &self.members else {
+            return Vec::new();
+        };
+
+        let topic = "members";
+        let whose = "Every body within the radii of the data";
+        let mut said = Vec::new();
+        if let Some((below, evidence)) = &members.absent_below {
+            said.push(Sentence {
+                topic,
+                text: format!(
+                    "{whose}: with this contact state none has divergence of the form (8) at any \
+                     mu with 0 < mu <= {}.",
+                    down(below)
+                ),
+                evidence: evidence.clone(),
+            });
+        }
+        if let Some(([from, to], evidence)) = &members.present {
+            said.push(Sentence {
+                topic,
+                text: format!(
+                    "{whose}: with this contact state each has divergence of the form (8) at every \
+                     mu from {} to {}.",
+                    up(from),
+                    down(to)
+                ),
+                evidence: evidence.clone(),
+            });
+        }
+
+        said.push(members.first_order.as_ref().map_or_else(
+            || Sentence {
+                topic,
+                text: format!("{whose}: no solution is known from which the critical mu may vary."),
+                evidence: Evidence::Measured("the search for solutions"),
+            },
+            |first_order| Sentence {
+                topic,
+                text: first_order.text(&self.particles),
+                evidence: Evidence::Measured("first order in the radii, in doubles"),
+            },
+        ));
+        said
     }
 
     /// What proves the equilibrium stable at the mu that was asked for.

@@ -21,6 +21,7 @@ impl Analysis {
         parts.extend(self.stable_range());
         parts.push(self.critical_bounds());
         parts.extend(self.presence());
+        parts.extend(self.of_members());
         parts.push(self.standing().to_string());
         parts.join(" ")
     }
@@ -201,6 +202,32 @@ impl Analysis {
         Some(format!(
             "Divergence is {}{elsewhere}.",
             clauses.join(", and ")
+        ))
+    }
+
+    /// What is proved of every body within the radii of the data.
+    fn of_members(&self) -> Option<String> {
+        let members = self.members.as_ref()?;
+        let absent = members.absent_below.as_ref();
+        let absent = absent.map(|(below, _)| {
+            format!(
+                "none has such a motion at any mu above 0 up to {}",
+                down(below)
+            )
+        });
+        let present = members.present.as_ref();
+        let present = present.map(|([from, to], _)| {
+            format!("each has one at every mu from {} to {}", up(from), down(to))
+        });
+
+        let clauses: Vec<String> = absent.into_iter().chain(present).collect();
+        let proved = if clauses.is_empty() {
+            "nothing is proved".into()
+        } else {
+            clauses.join(", and ")
+        };
+        Some(format!(
+            "So much for the data as given; of all bodies within their radii {proved}."
         ))
     }
 

@@ -14,7 +14,7 @@
 
 use super::order::require_order;
 use crate::ModelError;
-use mceip_exact::{Integer, Rational, Sparse, nearest_decimal, parse};
+use mceip_exact::{Integer, NumberError, Rational, Sparse, nearest_decimal, parse};
 use num_traits::{One as _, Zero as _};
 use std::collections::BTreeSet;
 
@@ -32,7 +32,44 @@ use std::collections::BTreeSet;
 /// assert_eq!((m.get(0, 0), m.get(0, 1)), (rational(11, 10), rational(-3, 10)));
 /// ```
 pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, ModelError> {
-    let reader = Reader { what };
+    read(&Reader { what, value: parse }, text)
+}
+
+/// The radius of each entry of a Matrix Market file as printed: half a unit of its last digit, for
+/// entries that are spelt out as zero too. A fraction is exact.
+///
+/// # Errors
+/// As [`read_matrix_market`].
+///
+/// ```
+/// use mceip_exact::rational;
+/// use mceip_model::file::read_printed_radius;
+/// let text = "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1.10\n2 1 -3e-1\n";
+/// let r = read_printed_radius("K", text).unwrap();
+/// assert_eq!((r.get(0, 0), r.get(0, 1)), (rational(1, 200), rational(1, 20)));
+/// ```
+pub fn read_printed_radius(what: &'static str, text: &str) -> Result<Sparse, ModelError> {
+    let reader = Reader {
+        what,
+        value: half_a_unit,
+    };
+    read(&reader, text)
+}
+
+/// Half a unit of the last digit of a number.
+fn half_a_unit(text: &str) -> Result<Rational, NumberError> {
+    parse(text)?;
+    if text.contains('/') {
+        return Ok(Rational::zero());
+    }
+
+    let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
+    let exponent: i64 = exponent.parse().unwrap_or_default();
+    parse(&format!("5e{}", exponent - decimals as i64 - 1))
+}
+
+fn read(reader: &Reader, text: &str) -> Result<Sparse, ModelError> {
     let mut lines = text.lines().enumerate().map(|(i, text)| (i + 1, text));
     let end = text.lines().count() + 1;
 
@@ -172,6 +209,8 @@ fn index_from_one(word: &str) -> Option<usize> {
 /// Reads single lines and names the matrix in complaints.
 struct Reader {
     what: &'static str,
+    /// What stands for a word that spells a number.
+    value: fn(&str) -> Result<Rational, NumberError>,
 }
 
 impl Reader {
@@ -285,13 +324,15 @@ impl Reader {
             return Err(self.complain(line, "the lower triangle of a symmetric matrix", text));
         }
 
-        let value = parse(value).map_err(|source| ModelError::Number {
+        let of_number = |source| ModelError::Number {
             place: format!("{} line {line}", self.what),
             source,
-        })?;
-        if layout.banner.integer && !value.is_integer() {
+        };
+        let given = parse(value).map_err(of_number)?;
+        if layout.banner.integer && !given.is_integer() {
             return Err(self.complain(line, "an integer, as line 1 says (or `real` there)", text));
         }
+        let value = (self.value)(value).map_err(of_number)?;
 
         Ok((i, j, value))
     }

@@ -19,7 +19,7 @@ mod unique;
 mod write;
 
 pub use loads::{LOADS_FORMAT, LoadsFile, read_loads};
-pub use market::{FRACTIONS, read_matrix_market, write_matrix_market};
+pub use market::{FRACTIONS, read_matrix_market, read_printed_radius, write_matrix_market};
 pub use number::Number;
 pub use object::{HasWords, Object, Word, WordOrKind};
 pub use order::{MAX_ORDER, require_order};
