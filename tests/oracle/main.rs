@@ -10,6 +10,7 @@ mod third;
 mod algebra;
 mod counterexamples;
 mod known_answers;
+mod members;
 mod oracle_degenerate;
 mod oracle_edges;
 mod oracle_report;
