@@ -170,7 +170,11 @@ pub(super) fn members(
 
     let absence = match &members.first_order {
         Some(FirstOrder { middle, width, .. }) => {
-            let below = |multiple: f64| short_bound(*middle, multiple * width / middle);
+            // middle - off for a small one, and never negative.
+            let below = |multiple: f64| {
+                let off = multiple * width;
+                short_bound(*middle, off / (middle + off))
+            };
             smallest_multiple(|multiple| match below(multiple) {
                 Some(below) => search.absence(&below),
                 None => Ok(None),
