@@ -1,9 +1,10 @@
-//! Divergence against mu: where it is proved absent or present, and where it was only sampled.
+//! Divergence and stability against mu: where they are proved, and where they were only sampled.
 //!
 //! Input: ranges of mu with a verdict each, the sampled values of mu, and the values that a reader
 //! looks for. Boxes above the axis show the ranges: verdicts differ in shade and hatching, a full
-//! outline is a proof, a dashed one joins samples, and without a box nothing was examined. Called
-//! by `mceip analyze` and `mceip path`.
+//! outline is a proof, a dashed one joins samples, and without a box nothing was examined. A bar
+//! above them holds the critical mu of every body within the radii of the data. Called by `mceip
+//! analyze` and `mceip path`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;
@@ -13,6 +14,8 @@ use super::scale::{Extent, Spread, label};
 /// What is known of divergence at some mu.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Presence {
+    /// There is none, and the equilibrium is stable.
+    Stable,
     /// There is none.
     Absent,
     /// There is a diverging solution.
@@ -51,6 +54,8 @@ pub struct PresenceChart {
     pub critical: Option<f64>,
     /// What these two are called.
     pub words: [&'static str; 2],
+    /// Bounds of the critical mu of every body within the radii of the data.
+    pub members: Option<[f64; 2]>,
 }
 
 const WIDTH: f64 = 760.0;
@@ -78,11 +83,15 @@ const SIGN: f64 = 22.0;
 /// Mean width of a letter, as a part of the height of the text.
 const LETTER: f64 = 0.6;
 
+/// Height of the bar of members, px.
+const MEMBERS: f64 = AREA.top - 20.0;
+
 /// Half the width of the pointers above the band, px.
 const POINTER: f64 = 5.0;
 
 impl Presence {
-    const ALL: [Presence; 4] = [
+    const ALL: [Presence; 5] = [
+        Presence::Stable,
         Presence::Absent,
         Presence::Present,
         Presence::Undecided,
@@ -92,6 +101,7 @@ impl Presence {
     /// The words of the keys.
     fn word(self) -> &'static str {
         match self {
+            Presence::Stable => "stable",
             Presence::Absent => "no divergence",
             Presence::Present => "divergence",
             Presence::Undecided => "undecided",
@@ -101,6 +111,7 @@ impl Presence {
 
     fn class(self) -> &'static str {
         match self {
+            Presence::Stable => "stable",
             Presence::Absent => "absent",
             Presence::Present => "present",
             Presence::Undecided => "undecided",
@@ -110,7 +121,7 @@ impl Presence {
 
     fn fill(self) -> &'static str {
         match self {
-            Presence::Absent | Presence::Undecided => "#fff",
+            Presence::Stable | Presence::Absent | Presence::Undecided => "#fff",
             Presence::Present => "#b0b0b0",
             Presence::NoPath => "#505050",
         }
@@ -127,6 +138,7 @@ impl PresenceChart {
             values.push(range.from);
             values.extend(range.to);
         }
+        values.extend(self.members.into_iter().flatten());
 
         let Extent { high, .. } = Extent::of(values.into_iter());
         Axis {
@@ -164,6 +176,9 @@ pub fn presence_picture(title: &str, presence: &PresenceChart) -> Picture {
     picture.push(own.with("class", "friction"));
     if let Some(mu) = presence.critical {
         picture.push(pointer(&chart, mu, "#000").with("class", "critical"));
+    }
+    if let Some(ends) = presence.members {
+        picture.push(members_bar(ends.map(|mu| chart.x.place(mu)), MEMBERS));
     }
 
     push_keys(&mut picture, presence);
@@ -214,6 +229,13 @@ fn shaded(area: Rectangle, presence: Presence, is_proved: bool) -> Element {
         .with("stroke-width", if is_proved { "1.6" } else { "1" });
 
     let mut group = Element::new("g").child(dashed(outline, outline_dash(is_proved)));
+    if presence == Presence::Stable {
+        let mut y = area.top + 0.5 * HATCH;
+        while y < area.bottom {
+            group.push(line((area.left, y), (area.right, y), "#777", 0.8));
+            y += HATCH;
+        }
+    }
     if presence == Presence::Undecided {
         let mut x = area.left + HATCH;
         while x < area.right {
@@ -252,6 +274,17 @@ fn pointer(chart: &Chart, mu: f64, fill: &'static str) -> Element {
         .child(Element::new("title").text(tip))
 }
 
+/// A bar between two places, with a stroke at each end.
+fn members_bar([left, right]: [f64; 2], y: f64) -> Element {
+    let mut bar = Element::new("g").with("class", "members");
+    bar.push(line((left, y), (right, y), "#000", 2.4));
+    for x in [left, right] {
+        bar.push(line((x, y - POINTER), (x, y + POINTER), "#000", 1.6));
+    }
+
+    bar
+}
+
 /// A triangle that points down to (x, y).
 fn triangle(x: f64, y: f64, fill: &'static str) -> Element {
     let upper = y - 2.0 * POINTER;
@@ -280,7 +313,7 @@ fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
         }
     }
 
-    for (is_proved, words) in [(true, "proved"), (false, "decided at samples only")] {
+    for (is_proved, words) in [(true, "proved"), (false, "at samples only")] {
         let occurs = presence.ranges.iter().any(|r| r.is_proved == is_proved);
         if occurs {
             let middle = baseline - 4.5;
@@ -300,6 +333,14 @@ fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
         let words = format!("{critical}: {}", label(mu));
         picture.push(triangle(AREA.left + 290.0, baseline, "#000"));
         picture.push(text(AREA.left + 302.0, baseline, "start", words));
+    }
+    if let Some([lo, hi]) = presence.members {
+        let baseline = baseline + TEXT + 3.0;
+        let of = "critical \u{3bc} of every body within the radii of the data";
+        let words = format!("{of}: {} to {}", label(lo), label(hi));
+        let sign = [AREA.left, AREA.left + SIGN];
+        picture.push(members_bar(sign, baseline - 4.5));
+        picture.push(text(AREA.left + SIGN + 6.0, baseline, "start", words));
     }
 }
 

@@ -617,14 +617,21 @@ fn thresholds_and_branches_are_the_numbers_given() {
     sound(&threshold_picture("e", &[], 1.1));
 }
 
-/// Absent below 1, present at the samples 1.2 and 2, undecided from 2.5 on.
+/// Stable up to 0.5, absent below 1, present at the samples 1.2 and 2, undecided from 2.5 on.
 fn presence_of_every_kind() -> PresenceChart {
     PresenceChart {
         ranges: vec![
             PresenceRange {
-                presence: Presence::Absent,
+                presence: Presence::Stable,
                 from: 0.0,
                 is_from_included: false,
+                to: Some(0.5),
+                is_proved: true,
+            },
+            PresenceRange {
+                presence: Presence::Absent,
+                from: 0.5,
+                is_from_included: true,
                 to: Some(1.0),
                 is_proved: true,
             },
@@ -651,6 +658,7 @@ fn presence_of_every_kind() -> PresenceChart {
         friction: 3.0,
         critical: Some(1.0625),
         words: ["asked for", "critical"],
+        members: Some([1.0, 1.25]),
     }
 }
 
@@ -661,26 +669,29 @@ fn presence_is_drawn_at_its_values_of_mu() {
     let tree = Document::parse(&text).unwrap();
 
     let ranges = of_class(&tree, "range");
-    assert_eq!(data(&ranges, "data-from"), [0.0, 1.2, 2.5]);
+    assert_eq!(data(&ranges, "data-from"), [0.0, 0.5, 1.2, 2.5]);
     let classes: Vec<&str> = ranges.iter().filter_map(|r| r.attribute("class")).collect();
     let expected = [
+        "range stable proved",
         "range absent proved",
         "range present sampled",
         "range undecided sampled",
     ];
     assert_eq!(classes, expected);
 
-    // Absence for 0 < mu says nothing of mu = 0.
-    assert!(
-        text.contains("mu above 0 to 1: no divergence, proved"),
-        "{text}"
-    );
+    // Stability for 0 < mu says nothing of mu = 0.
+    for tip in [
+        "mu above 0 to 0.5: stable, proved",
+        "mu from 0.5 to 1: no divergence, proved",
+    ] {
+        assert!(text.contains(tip), "{text}");
+    }
     assert!(
         text.contains("mu from 1.2 to 2: divergence, sampled"),
         "{text}"
     );
 
-    // A proof has a full outline, samples a dashed one; the undecided range alone is hatched.
+    // A proof has a full outline, samples a dashed one; the stable and the undecided are hatched.
     let mut dashes = Vec::new();
     let mut lefts = Vec::new();
     let mut strokes = Vec::new();
@@ -690,18 +701,22 @@ fn presence_is_drawn_at_its_values_of_mu() {
         lefts.push(number(&outline, "x").unwrap());
         strokes.push(range.children().filter(|n| n.has_tag_name("line")).count());
     }
-    assert_eq!(dashes, [None, Some("4 3"), Some("4 3")]);
-    assert_eq!(strokes[..2], [0, 0]);
-    assert!(strokes[2] > 3, "{strokes:?}");
+    assert_eq!(dashes, [None, None, Some("4 3"), Some("4 3")]);
+    assert_eq!(strokes[1..3], [0, 0]);
+    assert!(strokes[0] > 3 && strokes[3] > 3, "{strokes:?}");
 
     // Places grow with mu in one proportion.
-    let proportion = (lefts[2] - lefts[0]) / (lefts[1] - lefts[0]);
+    let proportion = (lefts[3] - lefts[0]) / (lefts[2] - lefts[0]);
     assert!((proportion - 2.5 / 1.2).abs() < 0.01, "{proportion}");
 
     assert_eq!(data(&of_class(&tree, "sample"), "data-mu"), [1.2, 2.0, 2.5]);
     assert_eq!(data(&of_class(&tree, "friction"), "data-mu"), [3.0]);
     assert_eq!(data(&of_class(&tree, "critical"), "data-mu"), [1.0625]);
     assert!(text.contains("1.0625"));
+
+    // The bar of members, and its key.
+    assert_eq!(of_class(&tree, "members").len(), 2);
+    assert!(text.contains("radii of the data: 1 to 1.25"), "{text}");
 
     // Without anything known there is an axis and the friction of the system.
     let nothing = PresenceChart {
@@ -710,6 +725,7 @@ fn presence_is_drawn_at_its_values_of_mu() {
         friction: 0.0,
         critical: None,
         words: ["asked for", "critical"],
+        members: None,
     };
     let text = sound(&presence_picture("nothing", &nothing));
     assert!(!text.contains("NaN") && !text.contains("inf"));

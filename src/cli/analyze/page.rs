@@ -6,7 +6,7 @@ use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange,
     ReportPage, Section, branch_picture, presence_picture,
 };
-use mceip_engine::analysis::{Analysis, Evidence, Mode, Verdict};
+use mceip_engine::analysis::{Analysis, Evidence, Members, Mode, Verdict};
 use mceip_engine::run::Watch;
 use mceip_exact::to_f64;
 use mceip_model::{Coordinates, System};
@@ -177,7 +177,8 @@ fn answers(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
 fn presence_chart(analysis: &Analysis) -> Named {
     let title = "Divergence against the coefficient of friction";
     let picture = presence_picture(title, &presence(analysis));
-    let caption = "Where in \u{3bc} divergence of the form (8) exists, with these contact states. \
+    let caption = "Where in \u{3bc} divergence of the form (8) exists, and where the equilibrium is \
+                   proved to be stable, with these contact states. \
                    Dots are single values, each decided by a complete search; in a dashed box \
                    nothing is proved between them. Where there is no box, nothing was examined.";
     Named::chart("presence", picture, caption)
@@ -223,16 +224,33 @@ pub(super) fn branches(
 /// The ranges of mu, the mu asked for and the samples, and the smallest mu with a certified
 /// solution, in doubles.
 fn presence(analysis: &Analysis) -> PresenceChart {
+    let stable = analysis
+        .stability
+        .as_ref()
+        .map(|stability| to_f64(&stability.to));
     let mut ranges = Vec::new();
+    ranges.extend(stable.map(|to| PresenceRange {
+        presence: Presence::Stable,
+        from: 0.0,
+        is_from_included: false,
+        to: Some(to),
+        is_proved: true,
+    }));
     for range in &analysis.ranges {
+        let from = to_f64(&range.from).max(stable.unwrap_or(0.0));
         ranges.push(PresenceRange {
             presence: drawn_verdict(range.verdict),
-            from: to_f64(&range.from),
-            is_from_included: analysis.is_from_included(range),
+            from,
+            is_from_included: from > 0.0 || analysis.is_from_included(range),
             to: range.to.as_ref().map(to_f64),
             is_proved: !range.evidence.is_measured(),
         });
     }
+    ranges.retain(|range| {
+        range
+            .to
+            .is_none_or(|to| to > range.from || stable.is_none())
+    });
 
     let own = drawn_verdict(analysis.divergence.verdict);
     let mut samples = vec![(to_f64(&analysis.friction), own)];
@@ -250,7 +268,15 @@ fn presence(analysis: &Analysis) -> PresenceChart {
             "\u{3bc} asked for",
             "smallest \u{3bc} with a certified solution",
         ],
+        members: analysis.members.as_ref().and_then(critical_of_members),
     }
+}
+
+/// The proved bounds of the critical mu of every member, where there are two.
+fn critical_of_members(members: &Members) -> Option<[f64; 2]> {
+    let (below, _) = members.absent_below.as_ref()?;
+    let ([from, _], _) = members.present.as_ref()?;
+    Some([to_f64(below), to_f64(from)])
 }
 
 fn drawn_verdict(verdict: Verdict) -> Presence {

@@ -187,6 +187,7 @@ fn strip(own: &OwnCritical) -> Named {
         friction: to_f64(own.path_friction()),
         critical,
         words: ["\u{3bc} of the path", "first critical \u{3bc} examined"],
+        members: None,
     };
     let title = "Divergence on the path of the loads, against \u{3bc}";
     let picture = presence_picture(title, &chart);

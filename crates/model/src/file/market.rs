@@ -422,7 +422,10 @@ mod tests {
     /// As many numbers as asked for and nothing else; what is quoted is fit for a terminal.
     #[test]
     fn size_lines_are_numbers_only() {
-        let reader = Reader { what: "K" };
+        let reader = Reader {
+            what: "K",
+            value: parse,
+        };
         assert_eq!(reader.integers(2, " 3 4 ", 2).unwrap(), [3, 4]);
         for text in ["3", "3 4 5", "3 4 x", "3 x", "x 3 4", "3 x 4"] {
             assert!(reader.integers(2, text, 2).is_err(), "{text}");
