@@ -77,11 +77,11 @@ pub(super) struct Args {
     /// all bodies within that (spec/robust.md). Matrix Market only.
     #[arg(long, conflicts_with_all = ["loads", "within"])]
     as_printed: bool,
-    /// The numbers of K and M are known to this share of each, as 1e-6.
+    /// The numbers of K and M are known to this share of each, as 0.001.
     #[arg(long, value_name = "SHARE", conflicts_with = "loads")]
     within: Option<String>,
-    /// The coefficient of friction of each slip particle is known to this share, as 0.1, independent
-    /// of the others.
+    /// The coefficient of friction of each slip particle is known to this share, as 0.1, each by
+    /// itself.
     #[arg(long, value_name = "SHARE", conflicts_with = "loads")]
     friction_within: Option<String>,
     /// Leave the warnings out of the file: they have been looked at, and the model is meant so.
@@ -274,7 +274,7 @@ fn larger_of_mirrors(radius: &Sparse) -> Sparse {
 /// A share of less than 1.
 fn share_of(option: &'static str, given: &str) -> Result<Rational, CliError> {
     let share = positive_number(given).filter(|share| *share < Rational::one());
-    share.ok_or_else(|| CliError::option(option, "a share between 0 and 1, as 1e-6", given))
+    share.ok_or_else(|| CliError::option(option, "a share between 0 and 1, as 0.001", given))
 }
 
 /// The friction factor of a slip particle within a share of what it is.

@@ -18,9 +18,9 @@
 //! *Reversed* anchors do the same with A and B, sigma and tau exchanged, in s = 1 / t:
 //! F(t) / t = B_ff + s A_ff >= (tau + s sigma) I.
 //!
-//! *Members.* Where the data have radii, the same holds of every member with what `spread` adds. Its
-//! hypotheses are demanded of every member: the row sums of the radii come off the diagonal of a
-//! matrix that is to be definite (Gershgorin).
+//! *Members.* Where the data have radii, the same holds of every member with what `spread` adds.
+//! The hypotheses are demanded of every member: the row sums of the radii come off the diagonal of
+//! a matrix that is to be definite (Gershgorin).
 //!
 //! *Tail.* If sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite,
 //! then sym(A + tB) is definite for all t >= from, and x'(A + tB)x = x'y = 0 leaves x = 0 only.
@@ -39,7 +39,7 @@ use super::product::{
 };
 use super::psd::{SymmetricRows, semidefinite};
 use super::region::end;
-use super::spread::{Polynomials, Reach, Spread};
+use super::spread::{AnchorWitness, MemberSpread, Reach};
 use crate::certificate::{Anchor, Condensation, CriticalAnchor, Factor, IntegerMatrix, IntegerRow};
 use crate::pencil::{MemberRadii, Row, Rows};
 use mceip_exact::{Integer, Rational};
@@ -728,13 +728,13 @@ impl AnchorElimination<'_> {
     }
 
     /// What the members add for the values that the anchor serves.
-    fn spread(&self, radii: &IntegralBlocks, reach: &Reach) -> Spread {
-        let about = Polynomials {
+    fn spread(&self, radii: &IntegralBlocks, reach: &Reach) -> MemberSpread {
+        let about = AnchorWitness {
             center: self.anchor.center,
             w: &self.w,
             v: &self.v,
         };
-        Spread::of(radii, &about, reach)
+        MemberSpread::of(radii, &about, reach)
     }
 
     /// r = T_fs - F W.

@@ -26,7 +26,7 @@
 use super::ball::BallMatrix;
 use super::ends::{Ends, FRACTION_BITS, LongMatrix};
 use super::fault::CoverFault;
-use super::spread::Spread;
+use super::spread::MemberSpread;
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -75,7 +75,7 @@ struct RemainderFactors {
 
 impl Expanded {
     /// Adds what members may be off.
-    pub(super) fn spread(&mut self, spread: Spread) {
+    pub(super) fn spread(&mut self, spread: MemberSpread) {
         for (norms, more) in [
             (&mut self.left, spread.left),
             (&mut self.right, spread.right),

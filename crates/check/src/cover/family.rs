@@ -6,8 +6,9 @@
 //!
 //! Each row of A + tB is an integral row of the pencil divided by a power of two that makes its
 //! largest entry of A less than one. Numbers are integers in units of 2^-128; what is cut off is
-//! counted as a radius, and so are the radii of the data, rounded up. Rows multiplied by positive numbers d_i keep the null vectors of T and the
-//! signs of y = Tx, and x'Tx becomes sum d_i x_i y_i, which is zero for solutions as before.
+//! counted as a radius, and so are the radii of the data, rounded up. Rows multiplied by positive
+//! numbers d_i keep the null vectors of T and the signs of y = Tx, and x'Tx becomes
+//! sum d_i x_i y_i, which is zero for solutions as before.
 //!
 //! Called by the walks: `affordable` and `matrix_work` bound the work before `ends` does it. The
 //! ends of two families are in one unit.

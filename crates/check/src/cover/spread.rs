@@ -32,7 +32,7 @@ use num_traits::{One, Signed, Zero};
 const BOUND_BITS: u64 = FRACTION_BITS / 2;
 
 /// What the expansion about an anchor gains.
-pub(super) struct Spread {
+pub(super) struct MemberSpread {
     /// Norms of the columns of P and Q, in the units of those of r and l.
     pub(super) right: Vec<Integer>,
     pub(super) left: Vec<Integer>,
@@ -48,7 +48,7 @@ pub(super) struct Reach {
 }
 
 /// W and V about a center.
-pub(super) struct Polynomials<'a> {
+pub(super) struct AnchorWitness<'a> {
     pub(super) center: &'a Rational,
     pub(super) w: &'a MatrixPolynomial<'a>,
     pub(super) v: &'a MatrixPolynomial<'a>,
@@ -56,18 +56,22 @@ pub(super) struct Polynomials<'a> {
 
 /// The radii at the largest value, in units of 1 / (D times its denominator).
 struct RadiiAtTop {
-    ff: SparseRows,
-    fs: SparseRows,
-    sf: SparseRows,
-    ss: SparseRows,
+    ff: RadiusRows,
+    fs: RadiusRows,
+    sf: RadiusRows,
+    ss: RadiusRows,
 }
 
 /// Rows of (column, value).
-type SparseRows = Vec<Vec<(usize, Integer)>>;
+type RadiusRows = Vec<Vec<(usize, Integer)>>;
 
-impl Spread {
+impl MemberSpread {
     /// From the blocks of the radii, for values within `reach`.
-    pub(super) fn of(radii: &IntegralBlocks, about: &Polynomials<'_>, reach: &Reach) -> Spread {
+    pub(super) fn of(
+        radii: &IntegralBlocks,
+        about: &AnchorWitness<'_>,
+        reach: &Reach,
+    ) -> MemberSpread {
         let at_top = RadiiAtTop::of(radii, &reach.top);
         let shape = [radii.free, radii.slip];
         let w = largest_values(about.w, &reach.distance, shape);
@@ -95,7 +99,7 @@ impl Spread {
                 .collect()
         };
 
-        Spread {
+        MemberSpread {
             right: in_units_of(&p, about.w.exponent),
             left: in_units_of(&q, about.v.exponent),
             entries: entries(radii, &at_top, &w, &v, &p, reach),
@@ -157,8 +161,8 @@ impl RadiiAtTop {
 }
 
 /// `factor` (q A + p B) for t = p/q.
-fn at(block: &Linear, t: &Rational, factor: &Integer) -> SparseRows {
-    let mut rows = SparseRows::with_capacity(block.len());
+fn at(block: &Linear, t: &Rational, factor: &Integer) -> RadiusRows {
+    let mut rows = RadiusRows::with_capacity(block.len());
     for row in block {
         let value = |a: &Integer, b: &Integer| (t.denom() * a + t.numer() * b) * factor;
         rows.push(row.iter().map(|(j, a, b)| (*j, value(a, b))).collect());
@@ -202,8 +206,8 @@ fn largest_values(
 
 /// R_fs + R_ff W_max: P, or with the transpose of R_sf and V_max Q.
 fn bound_of_residual(
-    coupling: &SparseRows,
-    free: &SparseRows,
+    coupling: &RadiusRows,
+    free: &RadiusRows,
     largest: &LongMatrix,
     slip: usize,
 ) -> LongMatrix {
@@ -232,7 +236,7 @@ fn add_multiple(target: &mut [Integer], factor: &Integer, row: &[Integer]) {
     }
 }
 
-fn transposed(rows: &SparseRows, columns: usize) -> SparseRows {
+fn transposed(rows: &RadiusRows, columns: usize) -> RadiusRows {
     let mut transposed = vec![Vec::new(); columns];
     for (i, row) in rows.iter().enumerate() {
         for (j, value) in row {

@@ -6,7 +6,7 @@
 //!
 //! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
 
-use super::absence::MemberRadii;
+use super::absence::FamilyRadii;
 use super::conditions::{DefiniteUntil, Necessary, condensed};
 use mceip_model::reduction::{mu_family, zero_variables};
 use mceip_model::{ModelError, MuFamily, System, ZeroVariables};
@@ -20,7 +20,7 @@ pub(super) struct Families {
     /// The variables of the particles with zero reaction.
     pub(super) zero: Vec<ZeroVariables>,
     /// How far members may be from them, where the data have radii.
-    pub(super) radii: Option<MemberRadii>,
+    pub(super) radii: Option<FamilyRadii>,
 }
 
 impl Families {
@@ -29,7 +29,7 @@ impl Families {
     /// # Errors
     /// As [`mu_family`].
     pub(super) fn of(system: &System) -> Result<Families, ModelError> {
-        let radii = MemberRadii::of(system)?;
+        let radii = FamilyRadii::of(system)?;
         let middle;
         let system = if radii.is_some() {
             middle = system.middle();

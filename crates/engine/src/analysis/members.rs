@@ -1,5 +1,5 @@
-//! What holds of every body within the radii of the data: a lower and an upper bound of the critical
-//! mu of all members.
+//! What holds of every body within the radii of the data: a lower and an upper bound of the
+//! critical mu of all members.
 //!
 //! With w the first-order width of what the members' critical mu may be off that in the middle,
 //!
@@ -7,9 +7,9 @@
 //!     w = max |u'(T - T')x| / |u'T1 x|
 //! ```
 //!
-//! at the solution of smallest mu, with u and x its null vectors, absence is tried below mu - k w and
-//! presence above mu + k w for growing k. The same formula says which entry and which factor costs
-//! most ([`MemberCost`]). Nothing is proved by it: certificates are, and the checker decides.
+//! at the solution of smallest mu, with u and x its null vectors, absence is tried below mu - k w
+//! for growing k, and presence from mu + w on. The same formula says which entry and which factor
+//! costs most ([`MemberCost`]). Nothing is proved by it: the checker decides about certificates.
 //!
 //! Input: a system with radii, and what `critical` has found of the body in the middle. Output:
 //! [`Members`]. Called by [`analyse`](super::analyse).

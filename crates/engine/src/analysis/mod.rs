@@ -96,7 +96,7 @@ pub fn analyse(
         watch: *watch,
     };
     let mut proofs = Vec::new();
-    let ground = Ground::of(&model, friction, &mut proofs)?;
+    let ground = CriticalGround::of(&model, friction, &mut proofs)?;
     let known = ground.known(friction);
     let found = critical::critical(&model, &known, &mut proofs)?;
     let members = match &given {
@@ -109,7 +109,7 @@ pub fn analyse(
             &mut proofs,
         )?),
     };
-    let Ground {
+    let CriticalGround {
         families,
         necessary,
         ..
@@ -129,7 +129,7 @@ pub fn analyse(
         ));
         flutter::flutter(families, friction)
     };
-    let Ground {
+    let CriticalGround {
         families,
         necessary,
         at_friction,
@@ -163,19 +163,19 @@ pub fn analyse(
 }
 
 /// What every search for the critical mu of one body begins with.
-struct Ground {
+struct CriticalGround {
     families: Families,
     necessary: Necessary,
     at_friction: AtFriction,
     threshold: StaticThreshold,
 }
 
-impl Ground {
+impl CriticalGround {
     fn of(
         model: &AnalysisModel<'_>,
         friction: &Rational,
         proofs: &mut Vec<Proof>,
-    ) -> Result<Ground, AnalysisError> {
+    ) -> Result<CriticalGround, AnalysisError> {
         let (families, necessary) = families_and_condition(model)?;
         let mut at_friction = AtFriction::decide(model, &families, &necessary, friction)?;
         proofs.extend(at_friction.proof.take());
@@ -190,7 +190,7 @@ impl Ground {
 
         let stage = "critical mu: all lambda^2 >= 0 and all smaller mu";
         model.watch.report(&Progress::stage(stage));
-        Ok(Ground {
+        Ok(CriticalGround {
             families,
             necessary,
             at_friction,
@@ -234,7 +234,7 @@ fn members(
         system: &middle,
         ..*model
     };
-    let ground = Ground::of(&of_middle, friction, &mut Vec::new())?;
+    let ground = CriticalGround::of(&of_middle, friction, &mut Vec::new())?;
     let found = critical::critical(&of_middle, &ground.known(friction), &mut Vec::new())?;
     members::members(model, with_radii, friction, &found, proofs)
 }

@@ -10,7 +10,7 @@
 //! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
 
 use super::super::families::Families;
-use super::members::{MemberRadii, RadiiOfParts};
+use super::members::{FamilyRadii, RadiiOfParts};
 use crate::branch::BranchPoint;
 use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
@@ -41,7 +41,7 @@ pub(in crate::analysis) struct HalfLineFamily {
     /// The same of the system in which particles with zero reaction are free, if there are such.
     tail_pencils: Option<[Pencil; 2]>,
     /// The radii of the data, where there are some.
-    radii: Option<MemberRadii>,
+    radii: Option<FamilyRadii>,
     /// The condensation of P0, its anchors moved to `left_friction`, and the pieces.
     prepared: Prepared,
     /// Of each anchor the expansions of T0 and T1; one pair where there are no free variables.
@@ -106,7 +106,7 @@ impl HalfLineFamily {
             Some(parts_of(families.of_condition())?)
         };
         let radii = families.radii.clone();
-        let of_radii = radii.as_ref().map(MemberRadii::of_parts).transpose()?;
+        let of_radii = radii.as_ref().map(FamilyRadii::of_parts).transpose()?;
         let mut at_friction = at(tail_pencils.as_ref().unwrap_or(&pencils), friction)?;
         let least_free;
         let mut free = without_friction;

@@ -1,8 +1,8 @@
 //! What the radii of the data add to the two parts of T(t, mu) = T0(t) + mu T1(t).
 //!
 //! `spec/certificates.md`, 5.22, has the formulas, which the checker computes exactly. Here they
-//! are in doubles: the pencils whose definiteness has to be proved, and the [`Spread`] of each
-//! expansion over what its anchor serves.
+//! are in doubles: the pencils whose definiteness has to be proved, and the [`ExpansionSpread`] of
+//! each expansion over what its anchor serves.
 //!
 //! Input: the radii of (K0, K1) and (M0, M1), and the pieces. Called by `family`.
 
@@ -10,7 +10,7 @@ use super::family::{HalfLineFamily, PieceOfHalfLine, parts_of};
 use crate::branch::BranchPoint;
 use crate::search::complete::CompleteError;
 use crate::search::complete::pieces::condense::columns_of_all;
-use crate::search::complete::pieces::expansion::{Expansion, Spread};
+use crate::search::complete::pieces::expansion::{Expansion, ExpansionSpread};
 use crate::search::complete::pieces::matrix::zeros;
 use crate::tolerance::ROUNDING;
 use mceip_check::certificate::{CriticalAnchor, IntegerMatrix};
@@ -21,24 +21,24 @@ use num_traits::{One as _, Signed as _};
 
 /// How far the parts of a member may be from those in the middle.
 #[derive(Clone)]
-pub(in crate::analysis) struct MemberRadii {
+pub(in crate::analysis) struct FamilyRadii {
     family: MuFamily,
     /// By slip variable: the share by which a friction row may be off.
     shares: Vec<Rational>,
 }
 
-impl MemberRadii {
+impl FamilyRadii {
     /// Those of a system; `None` for one body.
     ///
     /// # Errors
     /// As [`radii_family`].
-    pub(in crate::analysis) fn of(system: &System) -> Result<Option<MemberRadii>, ModelError> {
+    pub(in crate::analysis) fn of(system: &System) -> Result<Option<FamilyRadii>, ModelError> {
         if system.is_exact() {
             return Ok(None);
         }
 
         let slip = system.slip_particles().into_iter();
-        Ok(Some(MemberRadii {
+        Ok(Some(FamilyRadii {
             family: radii_family(system)?,
             shares: slip.map(|(p, _)| p.friction_factor_ball().1).collect(),
         }))
@@ -53,8 +53,7 @@ impl MemberRadii {
     }
 }
 
-/// The null vectors of a solution over all degrees of freedom, u from the left and x from the right:
-/// u'(K + t M)x is zero.
+/// The null vectors of a solution over all degrees of freedom: u from the left, x from the right.
 pub(in crate::analysis) struct FullModes {
     pub(in crate::analysis) left: Vec<f64>,
     pub(in crate::analysis) right: Vec<f64>,
@@ -200,7 +199,7 @@ impl RadiiOfParts<'_> {
                 matrix
             };
             let radii = &self.pencils[part];
-            expansion.spread = Some(Spread {
+            expansion.spread = Some(ExpansionSpread {
                 constant: scaled(radii.a()),
                 slope: scaled(radii.b()),
                 shares: self.shares_of(part),
@@ -217,7 +216,7 @@ impl RadiiOfParts<'_> {
         served: &[&PieceOfHalfLine],
         factors: &[f64],
     ) {
-        let reach = Reach::of(&pair[0], served);
+        let reach = ServedReach::of(&pair[0], served);
         let width = factors.len();
         let left_of_plain = anchor.left.as_deref().unwrap_or(&anchor.right);
         let w = largest_values(&anchor.right, reach.distance, width);
@@ -228,7 +227,7 @@ impl RadiiOfParts<'_> {
                 column.iter_mut().for_each(|entry| *entry *= factor);
             }
 
-            let radii = RadiiAtTop::of(&self.pencils[part], &reach, expansion.reversed, factors);
+            let radii = LargestRadii::of(&self.pencils[part], &reach, expansion.reversed, factors);
             radii.spread(expansion, &w, &v, self.shares_of(part));
         }
     }
@@ -255,14 +254,14 @@ fn less(pencil: &Pencil, [of_a, of_b]: [&Sparse; 2]) -> Result<Pencil, CompleteE
 }
 
 /// What an anchor serves, in its own variable.
-struct Reach {
+struct ServedReach {
     distance: f64,
     top: f64,
 }
 
-impl Reach {
-    fn of(expansion: &Expansion, served: &[&PieceOfHalfLine]) -> Reach {
-        let mut reach = Reach {
+impl ServedReach {
+    fn of(expansion: &Expansion, served: &[&PieceOfHalfLine]) -> ServedReach {
+        let mut reach = ServedReach {
             distance: 0.0,
             top: 0.0,
         };
@@ -309,7 +308,7 @@ fn values(
 }
 
 /// The blocks of the radii at the largest value, slip rows times their factors.
-struct RadiiAtTop {
+struct LargestRadii {
     /// (row, column, value), rows and columns by position among their kind.
     ff: Vec<(usize, usize, f64)>,
     fs: Vec<(usize, usize, f64)>,
@@ -318,11 +317,11 @@ struct RadiiAtTop {
     free: usize,
 }
 
-impl RadiiAtTop {
-    fn of(radii: &Pencil, reach: &Reach, reversed: bool, factors: &[f64]) -> RadiiAtTop {
+impl LargestRadii {
+    fn of(radii: &Pencil, reach: &ServedReach, reversed: bool, factors: &[f64]) -> LargestRadii {
         let free = radii.free();
         let slip = radii.slip();
-        let mut blocks = RadiiAtTop {
+        let mut blocks = LargestRadii {
             ff: Vec::new(),
             fs: Vec::new(),
             sf: Vec::new(),
@@ -392,7 +391,7 @@ impl RadiiAtTop {
             }
         }
 
-        expansion.spread = Some(Spread {
+        expansion.spread = Some(ExpansionSpread {
             constant: e,
             slope: zeros(order),
             shares,

@@ -32,7 +32,7 @@ use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_exact::Rational;
 use mceip_model::Problem;
 use mceip_model::file::Number;
-pub(super) use members::MemberRadii;
+pub(super) use members::FamilyRadii;
 use rayon::prelude::*;
 
 /// How much work the cover may take.

@@ -42,19 +42,19 @@ pub(crate) struct Expansion {
     /// Is this T(t) / t in powers of 1 / t - center?
     pub(crate) reversed: bool,
     /// What a member may be off, where the data have radii.
-    pub(crate) spread: Option<Spread>,
+    pub(crate) spread: Option<ExpansionSpread>,
 }
 
 /// How far the matrix of a member may be from that in the middle: within constant + argument *
 /// slope entry by entry, and then row i within a share of what is known of it.
 #[derive(Clone)]
-pub(crate) struct Spread {
+pub(crate) struct ExpansionSpread {
     pub(crate) constant: SquareMatrix,
     pub(crate) slope: SquareMatrix,
     pub(crate) shares: Vec<f64>,
 }
 
-impl Spread {
+impl ExpansionSpread {
     /// Adds to the radii of an end, which is the matrix at an argument, or the direction where that
     /// is infinite.
     fn add_to(&self, radius: &mut SquareMatrix, m: &SquareMatrix, argument: f64) {
