@@ -385,6 +385,29 @@ def read_matrix(obj, folder, what):
     return m
 
 
+def read_radius(obj, matrix, folder, what):
+    """The rows of a radius of K or M (F, Radii), none where it is not given."""
+    if obj is None:
+        return []
+    if matrix is None or not isinstance(obj, dict) or len(obj) != 1:
+        raise Unreadable(f"{what}: one radius of a matrix that is given was expected")
+    (kind, value), = obj.items()
+    if kind == "matrix":
+        radius = read_matrix(value, folder, what)
+        if (len(radius.rows), radius.cols) != (len(matrix.rows), matrix.cols):
+            raise Unreadable(f"{what}: order")
+        rows = radius.rows
+    elif kind in ("absolute", "relative"):
+        r = number(value)
+        of = (lambda v: r) if kind == "absolute" else (lambda v: r * abs(v))
+        rows = [{j: of(v) for j, v in row.items() if of(v)} for row in matrix.rows]
+    else:
+        raise Unreadable(f"{what}: absolute, relative or matrix was expected")
+    if any(v < 0 or rows[j].get(i) != v for i, row in enumerate(rows) for j, v in row.items()):
+        raise Unreadable(f"{what}: a negative entry, or not symmetric")
+    return rows
+
+
 class Problem:
     """The pencil (a, b: rows {j: value}), free and complementarity indices, the digest."""
 
@@ -400,7 +423,9 @@ class Problem:
         read_window(window)
         folder = os.path.dirname(os.path.abspath(path))
         self.system = None
+        self.radii = None  # of K and M by rows, and the share of each variable (C, 5.22)
         self.halves = []  # (right, left) for each particle in contact with zero reaction
+        self.spread = None
         text = ["mceip-canonical/1", f"unknown {self.unknown}"]
         text += self.read_pencil(pencil, folder) if system is None else self.read_system(system, folder)
         self.digest = hashlib.sha256("".join(line + "\n" for line in text).encode()).hexdigest()
@@ -421,7 +446,7 @@ class Problem:
         return ["pencil", " ".join(["free", *map(str, self.free)]), "a " + ea[0], *ea[1:], "b " + eb[0], *eb[1:]]
 
     def read_system(self, obj, folder):
-        k, particles, m, mu = fields(obj, "stiffness particles", "mass friction")
+        k, particles, m, mu, radii = fields(obj, "stiffness particles", "mass friction radii")
         k = read_matrix(k, folder, "stiffness")
         m = None if m is None else read_matrix(m, folder, "mass")
         mu = None if mu is None else number(mu)
@@ -433,14 +458,21 @@ class Problem:
                 raise Unreadable("stiffness and mass must be symmetric, of one order")
         if self.unknown == "lambda2" and (m is None or mu is None):
             raise Unreadable("lambda2 needs mass and friction")
+        of_k, of_m = fields({} if radii is None else radii, "", "stiffness mass")
+        of_k = read_radius(of_k, k, folder, "radius of K")
+        of_m = read_radius(of_m, m, folder, "radius of M")
         text = ["system"] + ([] if mu is None else [f"friction {mu}"])
         taken, held, trial, test, slips, sticks, zeros = set(), set(), [], [], [], [], []
+        exact, shares = not any(of_k) and not any(of_m), []
         for p in sequence(particles):
-            t, n, state, tangent, normal, sign, factor = self.read_particle(p, order, mu)
+            t, n, state, tangent, normal, sign, factor, ends = self.read_particle(p, order, mu)
             if taken & {t, n} or t == n:
                 raise Unreadable("a dof in two particles")
             taken |= {t, n}
             text += particle_lines(t, n, state, sign, tangent, normal, factor)
+            if ends is not None:  # C, 5.22: the middle and the share
+                exact, factor = False, sum(ends) / 2
+                text.append(f"friction_factor_range {ends[0]} {ends[1]}")
             friction = {d: factor * c for d, c in normal.items()}
             if state != "free":
                 held |= {t, n}
@@ -448,6 +480,7 @@ class Problem:
                 sticks += [t, n]
             elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
                 slips.append((tangent, normal, friction, sign))
+                shares.append(Q(0) if ends is None else (ends[1] - ends[0]) / (ends[1] + ends[0]))
                 trial.append({d: -sign * c for d, c in tangent.items()})
                 test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in friction.items()}))
             elif state == "zero":
@@ -470,11 +503,22 @@ class Problem:
         self.n, self.free = len(trial), list(range(len(free)))
         if not slips:
             raise Unreadable("particles: expected one in impending slip")
-        return text + matrix_lines(k, m)
+        if zeros and not exact:
+            raise Unreadable("radii beside a particle in state zero")
+        if not exact:
+            self.radii = of_k, of_m, [Q(0)] * len(free) + shares
+        text += matrix_lines(k, m)
+        for name, x in (("stiffness", of_k), ("mass", of_m)):
+            if any(x):
+                text.append(f"{name}_radius {order} {order}")
+                text += [f"{i} {j} {r[j]}" for i, r in enumerate(x) for j in sorted(r)]
+        return text
 
     @staticmethod
     def read_particle(obj, order, mu):
-        t, n, state, sign, direction, frame, factor, reaction, name = fields(obj, "tangential normal state", "sign normal_direction frame friction_factor reaction name")
+        t, n, state, sign, direction, frame, factor, ends, reaction, name = fields(
+            obj, "tangential normal state",
+            "sign normal_direction frame friction_factor friction_factor_range reaction name")
         Maybe(text_of)(name)
         t, n = index(t, order), index(n, order)
         if state not in ("free", "stick", "slip", "zero") or (sign is not None) != (state == "slip"):
@@ -491,6 +535,10 @@ class Problem:
         factor = Q(1) if factor is None else number(factor)
         if factor <= 0:
             raise Unreadable("friction_factor must be positive")
+        if ends is not None:
+            ends = pair(ends)
+            if not (0 <= ends[0] < ends[1] and ends[0] <= factor <= ends[1]):
+                raise Unreadable("friction_factor_range: 0 <= lo < hi, the factor between")
         if reaction is not None:  # E7
             rn, rt = map(number, fields(reaction, "normal tangential"))
             bound = None if mu is None else -factor * mu * rn
@@ -498,9 +546,11 @@ class Problem:
             bad = bad or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
-        if frame is None:
-            return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign, factor
-        return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign, factor
+        tangent, normal = {t: Q(1)}, {n: Q(direction)}
+        if frame is not None:
+            tangent = {t: c[0][0], n: c[0][1]}
+            normal = {t: direction * c[1][0], n: direction * c[1][1]}
+        return t, n, state, tangent, normal, sign, factor, ends
 
 
 def particle_lines(t, n, state, sign, tangent, normal, factor):
@@ -865,17 +915,36 @@ def row_bits(rows, part):
     return [max(1, *(abs(v).bit_length() for v in row[part].values()), 1) for row in rows]
 
 
+def with_radii(ends, r0, r1, shares):
+    """The ends with these radii added, then each row of the matrices times a number within its
+    share of 1 (C, 5.22, Ends)."""
+    widened = []
+    for (m, r), more in zip(ends.both, (r0, r1)):
+        r = [[x + y for x, y in zip(*of_row)] for of_row in zip(r, more)]
+        widened.append([
+            [x + ceil(d * (abs(c) + x)) for c, x in zip(*of_row)]
+            for d, *of_row in zip(shares, m, r)])
+    (m0, _), (m1, _) = ends.both
+    return Ends(m0, m1, *widened, ends.d, ends.unit, ends.unbounded)
+
+
 class PlainPencil:
     """No free variables: T(lo) and T(hi) themselves, rows scaled (C, Matrices of a region)."""
 
     def __init__(self, p, rows, bits=None):
-        self.parts = []
-        for bits, (_, ra, rb) in zip(bits or row_bits(rows, 1), rows):
+        self.parts, bits = [], bits or row_bits(rows, 1)
+        for b, (_, *both) in zip(bits, rows):
             # Rounded down to units of 2^-128 where 2^b exceeds 2^128; the radius is one unit each then.
-            a, b = ([(row.get(j, 0) << BITS) >> bits for j in range(p.n)] for row in (ra, rb))
-            self.parts.append((a, b, int(bits > BITS)))
+            x, y = ([(row.get(j, 0) << BITS) >> b for j in range(p.n)] for row in both)
+            self.parts.append((x, y, int(b > BITS)))
         self.p, self.n, self.paid = p, p.n, None
         self.numbers = 0
+        self.spread = None
+        if p.spread is not None:  # scaled as the rows they belong to, in units of 2^-128
+            scales = [Q(f << BITS, 2**b) for b, (f, _, _) in zip(bits, rows)]
+            self.spread = [
+                [[ceil(r.get(j, 0) * s) for j in range(p.n)] for r, s in zip(x, scales)]
+                for x in p.spread[:2]]
 
     def name(self, _anchor):
         pass
@@ -899,7 +968,15 @@ class PlainPencil:
         else:
             m1, r1 = at(hi)
             d = [[int((hi - lo) * q) * 2 * r] * self.n for _, _, r in self.parts]  # T' and (M1 - M0)/(hi - lo): one unit, generously two
-        return Ends(m0, m1, r0, r1, d, q << BITS, hi is None)
+        ends = Ends(m0, m1, r0, r1, d, q << BITS, hi is None)
+        if self.spread is None:
+            return ends
+
+        def at_data(x, y):
+            """x RA + y RB."""
+            return [[int(x * v + y * w) for v, w in zip(*of_row)] for of_row in zip(*self.spread)]
+        upper = at_data(0, q) if hi is None else at_data(q, q * hi)
+        return with_radii(ends, at_data(q, q * lo), upper, self.p.spread[2])
 
 
 def covered(s, n, factor, strict, what):
@@ -953,13 +1030,18 @@ def root_up(num, den, fine):
     return (isqrt(num << 2 * fine) + 1) // den + 1
 
 
+def norm_up(vector, fine):
+    q = sum((x * x for x in vector), Q(0))
+    return root_up(q.numerator * q.denominator, q.denominator, fine) if q else 0
+
+
 FINE = 64  # bits below the units of all matrices; a center of b bits is raised to powers, each of which takes b bits more
 
 
 class CondensedPencil:
     """Free variables: the Schur complement, enclosed from an anchor (C, Condensation)."""
 
-    def __init__(self, p, rows, obj, bits=None):
+    def __init__(self, p, rows, obj, bits=None, intervals=()):
         sigma, self.stiffness, mass_sigma, anchors, mass, self.tail = fields(obj, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")
         self.p, self.sigma, self.tau = p, number(sigma), number(mass_sigma)
         self.bound_bits = rational_bits(self.sigma) + rational_bits(self.tau)
@@ -969,8 +1051,13 @@ class CondensedPencil:
         for m in (aff, bff):  # hypothesis 1
             demand(all(m[j].get(i) == v for i, r in enumerate(m) for j, v in r.items()), "condensation 1: not symmetric")
         demand(self.sigma > 0 and self.tau >= 0 and self.stiffness is not None, "condensation 1: sigma, mass_sigma")
-        covered([plus(r, {i: -self.sigma}) for i, r in enumerate(aff)], nf, self.stiffness, False, "condensation 1: stiffness")
-        covered([plus(r, {i: -self.tau}) for i, r in enumerate(bff)], nf, mass, False, "condensation 1: mass")
+        exact = [{}] * p.n, [{}] * p.n
+        for k, (m, bound, factor, what) in enumerate((
+                (aff, self.sigma, self.stiffness, "stiffness"), (bff, self.tau, mass, "mass"))):
+            radius = (p.spread or exact)[k]
+            off = [sum(v for j, v in radius[i].items() if j in self.place) for i in p.free]
+            s = [plus(r, {i: -bound - off[i]}) for i, r in enumerate(m)]
+            covered(s, nf, factor, False, f"condensation 1: {what}")
         self.bff_norm = max((sum(abs(v) for v in r.values()) for r in bff), default=Q(0))
         self.tail_from = None
         if self.tail is not None:  # hypothesis 2
@@ -998,13 +1085,49 @@ class CondensedPencil:
         self.unnamed = [self.read_anchor(a) for a in sequence(anchors)]
         self.anchors = [None] * len(self.unnamed)
         self.cache = {}
+        self.intervals, self.reach = intervals, [None] * len(self.unnamed)
 
     def name(self, anchor):
         """A piece names this anchor, or none: the first time it is expanded, which takes memory."""
         if anchor is not None and self.anchors[anchor] is None:
             Budget.anchors -= self.costs[anchor]
             demand(Budget.anchors >= 0, "anchors: expansions of more bits than the file's budget")
+            if self.p.spread is not None:
+                self.reach[anchor] = self.of_data(anchor)
             self.anchors[anchor] = self.expand(*self.unnamed[anchor])
+
+    def of_data(self, anchor):
+        """P, Q and E for all that the pieces of this anchor cover, the columns of Q and the rows of
+        E scaled (C, 5.22, Ends)."""
+        center, backwards, w, ew, v, ev = self.unnamed[anchor]
+        ends = []
+        for lo, hi, name in self.intervals:
+            if name == anchor:
+                demand(lo > 0 if backwards else hi is not None, "Unbounded: a piece with an anchor")
+                ends += ([Q(0) if hi is None else 1 / hi, 1 / lo]) if backwards else [lo, hi]
+        delta, last = max(abs(t - center) for t in ends), max(ends)
+        ra, rb = self.p.spread[1::-1] if backwards else self.p.spread[:2]
+        r = [plus(x, y, last) for x, y in zip(ra, rb)]
+
+        def size(coefficients, exponent):
+            """Of each column the sum of |coefficient| delta^k."""
+            out = [[Q(0)] * len(free) for _ in s]
+            for k, columns in enumerate(coefficients):
+                f = delta**k / 2**exponent
+                for column, values in zip(out, columns):
+                    column[:] = [x + f * abs(y) for x, y in zip(column, values)]
+            return out
+        free, s, scales = self.p.free, self.p.s, self.scales[backwards]
+        w, v = size(w, ew), size(v, ev)
+
+        def times(i, column):
+            return sum(x * column[self.place[j]] for j, x in r[i].items() if j in self.place)
+        p = [[r[i].get(j, 0) + times(i, right) for i in free] for j, right in zip(s, w)]
+        q = [[f * (r[i].get(j, 0) + times(j, left)) for j in free]
+             for i, left, f in zip(s, v, scales)]
+        e = [[f * (r[i].get(j, 0) + times(i, right) + dot(left, x)) for j, right, x in zip(s, w, p)]
+             for i, left, f in zip(s, v, scales)]
+        return p, q, e
 
     def read_anchor(self, obj):
         """What an anchor is expanded from, within its limits."""
@@ -1022,7 +1145,7 @@ class CondensedPencil:
         self.numbers += nf * ns * (len(w) + len(v))
         largest = max(self.bits[1 if backwards else 0], default=1)
         self.words.append(words((self.common * center.denominator).bit_length() + ew + ev + largest))
-        return center, backwards, w, ew, v, ev
+        return center, bool(backwards), w, ew, v, ev
 
     def expand(self, center, backwards, w, ew, v, ev):
         """Z (coefficients, units of 2^-fine, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
@@ -1096,18 +1219,22 @@ class CondensedPencil:
             if len(self.cache) > 8:
                 self.cache.clear()
             spend_matrix(len(self.p.s), self.coefficients[anchor], self.words[anchor], rational_bits(self.anchors[anchor][0]) + self.bound_bits, lo, hi)
-            self.cache[key] = self.backwards(lo, hi, anchor) if self.anchors[anchor][-1] else self.enclose(lo, hi, self.anchors[anchor])
+            ends = (self.backwards if self.reversed(anchor) else self.enclose)(lo, hi, anchor)
+            if self.p.spread is not None:
+                e = [[ceil(x * ends.unit) for x in row] for row in self.reach[anchor][2]]
+                ends = with_radii(ends, e, e, [self.p.spread[2][i] for i in self.p.s])
+            self.cache[key] = ends
         return self.cache[key]
 
     def backwards(self, lo, hi, anchor):
         """A reversed anchor: T(t) / t in s = 1 / t, the first end still that of lo. s = 0 is not part of the window."""
         demand(lo > 0, "a reversed anchor and a region that begins at 0")
-        ends = self.enclose(Q(0) if hi is None else 1 / hi, 1 / lo, self.anchors[anchor])
+        ends = self.enclose(Q(0) if hi is None else 1 / hi, 1 / lo, anchor)
         return Ends(ends.both[1][0], ends.both[0][0], ends.both[1][1], ends.both[0][1], ends.d, ends.unit, hi is None)
 
     def enclose(self, lo, hi, anchor):
         """Units of 2^-fine; everything rounded outward."""
-        center, fine, z, nv, nl, nrl, nr, linear, reverse = anchor
+        center, fine, z, nv, nl, nrl, nr, linear, reverse = self.anchors[anchor]
         sigma, tau, norm = (self.tau, self.sigma, self.aff_norm) if reverse else (self.sigma, self.tau, self.bff_norm)
         ns, s = len(z[0]), sigma + lo * tau
         demand(hi is not None or linear, "an infinite interval and a family that is not linear")
@@ -1133,8 +1260,12 @@ class CondensedPencil:
             powers = [int(x * q) for x in powers]
             return [[sum(f * m[i][j] for f, m in zip(powers, z)) // q for j in range(ns)] for i in range(ns)], 1 + -(-sum(map(abs, powers)) // q)
 
+        of_p, of_q, _ = self.reach[anchor] or [[()] * ns] * 3
+        of_p, of_q = ([norm_up(c, fine) for c in of] for of in (of_p, of_q))
+
         def remainders(d):
-            return outer((Q(1), up(nv, d), up(nrl, d)), (1 / s, up(nl, d), up(nr, d)))
+            l, r = ([x + y for x, y in zip(up(n, d), of)] for n, of in ((nl, of_q), (nr, of_p)))
+            return outer((Q(1), up(nv, d), up(nrl, d)), (1 / s, l, r))
         one = Q(1)
         if hi is None:
             m0, cost = at(lo)
@@ -1799,10 +1930,11 @@ CRITICAL = record(**{
 
 
 class Part:
-    """One of the pencils T0 and T1 of T0 + mu T1 (C, mceip-critical/1): the free rows stand in both."""
+    """One of the pencils T0 and T1 of T0 + mu T1 (C, mceip-critical/1): the free rows stand in
+    both. `spread`, with radii of the data: RA, RB and the share of each row (C, 5.22)."""
 
-    def __init__(self, p, a, b):
-        self.n, self.free, self.s, self.a, self.b = p.n, p.free, p.s, a, b
+    def __init__(self, p, a, b, spread=None):
+        self.n, self.free, self.s, self.a, self.b, self.spread = p.n, p.free, p.s, a, b, spread
 
 
 def zero_free(p):
@@ -1813,7 +1945,8 @@ def zero_free(p):
     trial, test = units + trial[slips], [(u, {}) for u in units] + test[slips]
     freed = range(len(trial))
     return SimpleNamespace(
-        system=p.system, changes=(test, trial), n=len(trial), free=list(freed[:len(free)]), s=list(freed[len(free):]))
+        system=p.system, radii=None, changes=(test, trial), n=len(trial),
+        free=list(freed[:len(free)]), s=list(freed[len(free):]))
 
 
 def friction_parts(p):
@@ -1821,9 +1954,17 @@ def friction_parts(p):
     stiffness, mass = p.system[:2]
     test, trial = p.changes
     parts = []
-    for rows in ([u for u, _ in test], [w if i in p.s else u for i, (u, w) in enumerate(test)]):
-        parts.append(Part(p, project(rows, stiffness, trial), project(rows, mass, trial)))
-    common = [lcm(1, *(v.denominator for x in parts for r in (x.a[i], x.b[i]) for v in r.values())) for i in range(p.n)]
+    for k, rows in enumerate((
+            [u for u, _ in test], [w if i in p.s else u for i, (u, w) in enumerate(test)])):
+        spread = None
+        if p.radii is not None:  # |p|' (R_K + t R_M) |T|
+            *of, shares = p.radii
+            to, by = ([{d: abs(c) for d, c in v.items()} for v in x] for x in (rows, trial))
+            spread = *(project(to, x, by) if x else [{}] * p.n for x in of), \
+                shares if k == 1 else [Q(0)] * p.n
+        parts.append(Part(p, project(rows, stiffness, trial), project(rows, mass, trial), spread))
+    every = [m for x in parts for m in (x.a, x.b, *(x.spread or ())[:2])]
+    common = [lcm(1, *(v.denominator for m in every for v in m[i].values())) for i in range(p.n)]
     integral = [[(f, {j: int(v * f) for j, v in a.items()}, {j: int(v * f) for j, v in b.items()})
                  for f, a, b in zip(common, x.a, x.b)] for x in parts]
     return parts, integral
@@ -1841,8 +1982,21 @@ def at_friction(ends, mu):
     return Ends(m0, m1, r0, r1, None, unit * q, ends[0].unbounded)
 
 
-def critical_pencils(p, parts, integral, obj, lowest, below):
-    """The enclosures of T0 and T1, rows scaled alike, and where the tail begins."""
+def radius_at(parts, k, mu):
+    """The radius of A (k = 0) or B (k = 1) of T0 + mu T1; free rows are those of T0."""
+    (first, second), middle = (x.spread[k] for x in parts), (parts[1].a, parts[1].b)[k]
+    out = []
+    for i, (r, share) in enumerate(zip(first, parts[1].spread[2])):
+        if i in parts[1].s:
+            size = {j: abs(v) for j, v in middle[i].items()}
+            r = plus(plus(r, second[i], mu * (1 + share)), size, mu * share)
+        out.append(r)
+    return out
+
+
+def critical_pencils(p, parts, integral, obj, lowest, below, intervals=()):
+    """The enclosures of T0 and T1, rows scaled alike, and where the tail begins. The intervals of
+    the pieces are (lo, hi, anchor)."""
     bits = [[max(x) for x in zip(*(row_bits(rows, k) for rows in integral))] for k in (1, 2)]
     if obj is None:
         return [PlainPencil(x, rows, bits[0]) for x, rows in zip(parts, integral)], None
@@ -1853,7 +2007,7 @@ def critical_pencils(p, parts, integral, obj, lowest, below):
         for a in obj["anchors"]:
             same = {key: v for key, v in a.items() if key != "left_friction"}
             own["anchors"].append({**same, "left": a["right"] if a.get(left) is None else a[left]})
-        pencils.append(CondensedPencil(x, rows, own, bits))
+        pencils.append(CondensedPencil(x, rows, own, bits, intervals))
     tail = obj.get("tail")
     if tail is None:
         return pencils, None
@@ -1864,13 +2018,19 @@ def critical_pencils(p, parts, integral, obj, lowest, below):
     for mu, which in ((lowest, ""), (below, "_below")):
         a, b = ([plus(r0, r1, mu if i in p.s else 0) for i, (r0, r1) in enumerate(zip(*m))]
                 for m in ([x.a for x in parts], [x.b for x in parts]))
-        for m, factor, strict in (
-                ([plus(x, y, start) for x, y in zip(a, b)], tail["factor" + which], True), (b, tail.get("mass_factor" + which), False)):
+        ra, rb = ([{}] * p.n if p.radii is None else radius_at(parts, k, mu) for k in (0, 1))
+        at_start = [[plus(x, y, start) for x, y in zip(*of)] for of in ((a, b), (ra, rb))]
+        for m, radius, factor, strict in (
+                (*at_start, tail["factor" + which], True),
+                (b, rb, tail.get("mass_factor" + which), False)):
             s = [{} for _ in range(p.n)]
-            for i, r in enumerate(m):
+            for i, (r, of_data) in enumerate(zip(m, radius)):
                 for j, v in r.items():
                     s[i][j] = s[i].get(j, 0) + v / 2
                     s[j][i] = s[j].get(i, 0) + v / 2
+                for j, v in of_data.items():  # row sums of the symmetric part, off the diagonal
+                    s[i][i] = s[i].get(i, 0) - v / 2
+                    s[j][j] = s[j].get(j, 0) - v / 2
             covered(s, p.n, factor, strict, f"tail{which}")
     return pencils, start
 
@@ -1927,6 +2087,10 @@ class Regular:
         demand(any(all(s * h - g > bound for h, g in both) for s in (1, -1)), "regular 4: no certain sign")
 
 
+def whom(p):
+    return "" if p.radii is None else ", for every body within the radii of the data"
+
+
 def check_critical(p, doc):
     """No solution for mu in [from, below] and lambda^2 >= 0."""
     CRITICAL(doc)
@@ -1940,25 +2104,29 @@ def check_critical(p, doc):
     demand(ns <= 512, "more than 512 slip variables")
     demand(obj is None or 2 * len(obj["anchors"]) * ns**2 <= 3 << 20, "too many anchors for matrices of this order")
     demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
+    demand(pieces, "no piece")
+    intervals, start = [], Q(0)
+    for k, piece in enumerate(pieces):
+        stop, anchor = None if piece["max"] is None else number(piece["max"]), piece.get("anchor")
+        if anchor is not None:
+            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+        is_last = k == len(pieces) - 1
+        demand((stop is None) == is_last and (is_last or stop > start), "a piece's max")
+        intervals.append((start, stop, anchor))
+        start = stop
     parts, integral = friction_parts(p)
-    pencils, tail = critical_pencils(p, parts, integral, obj, lowest, below)
+    pencils, tail = critical_pencils(p, parts, integral, obj, lowest, below, intervals)
     nodes = sum(len(piece["tree"]) for piece in pieces)
     Budget.of_anchors(pencils)
     entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
     Budget.matrices = (1 << 30) + (nodes << 22) + (entries << 16)
     definite_left = (1 << 26) + (nodes << 20) + (entries << 16)
-    demand(pieces, "no piece")
-    start, leaves = Q(0), 0
-    for k, piece in enumerate(pieces):
-        end, tree, anchor = fields(piece, "max tree", "anchor")
-        end = None if end is None else number(end)
-        if anchor is not None:
-            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+    leaves = 0
+    for (start, end, anchor), piece in zip(intervals, pieces):
         for pencil in pencils:
             pencil.name(anchor)
-        demand((end is None) == (k == len(pieces) - 1) and (end is None or end > start), "a piece's max")
         boxes, known = [(start, end, lowest, below, (OPEN,) * ns)], {}
-        for node in tree:
+        for node in piece["tree"]:
             demand(boxes, "nodes after the end of a tree")
             lo, hi, low, high, state = boxes.pop()
             (kind, value), = node.items() if isinstance(node, dict) else [(node, None)]
@@ -2008,10 +2176,10 @@ def check_critical(p, doc):
                 demand(definite_left >= 0, "definite: more work than the file's budget")
                 definite(corners(), state, 1 if kind[0] == "p" else -1)
         demand(not boxes, "a tree that ends early")
-        start = end
     # At friction 0 a particle may slide both ways, of which (9) has one: the sentence leaves 0 out.
     bracket = "[" if lowest > 0 else "("
-    return 0, f"ACCEPTED: no solution for friction in {bracket}{lowest}, {below}] and lambda2 in [0, infinity), {leaves} leaves"
+    where = f"friction in {bracket}{lowest}, {below}] and lambda2 in [0, infinity)"
+    return 0, f"ACCEPTED: no solution for {where}{whom(p)}, {leaves} leaves"
 
 
 # ---------------------------------------------------------------- presence on an interval of friction
@@ -2108,22 +2276,26 @@ def check_presence(p, doc):
     demand(ns <= 512, "more than 512 slip variables")
     demand(obj is None or 2 * len(obj["anchors"]) * ns**2 <= 3 << 20, "too many anchors for matrices of this order")
     demand((obj is not None) == bool(p.free), "condensation is present exactly if there are free variables")
+    demand(pieces, "no piece")
+    intervals = []
+    for piece in pieces:
+        (t0, t1), anchor = map(number, piece["interval"]), piece.get("anchor")
+        if anchor is not None:
+            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
+        demand(0 <= t0 < t1, "presence: interval")
+        intervals.append((t0, t1, anchor))
     parts, integral = friction_parts(p)
-    pencils, _ = critical_pencils(p, parts, integral, obj, start, stop)
+    pencils, _ = critical_pencils(p, parts, integral, obj, start, stop, intervals)
     Budget.of_anchors(pencils)
     entries = sum(len({*ra, *rb}) for rows in integral for _, ra, rb in rows)
     Budget.matrices = (1 << 30) + (len(pieces) << 22) + (entries << 16)
     witnesses_left = (1 << 30) + (len(pieces) << 26)
-    demand(pieces, "no piece")
     low = start
-    for k, piece in enumerate(pieces):
-        high, (t0, t1), anchor = number(piece["to"]), map(number, piece["interval"]), piece.get("anchor")
+    for k, ((t0, t1, anchor), piece) in enumerate(zip(intervals, pieces)):
+        high = number(piece["to"])
         demand(high > low and (high == stop if k == len(pieces) - 1 else high < stop), "a piece's to")
-        if anchor is not None:
-            anchor = place_in(anchor, len(obj["anchors"])) if p.free else counter(anchor)
         for pencil in pencils:
             pencil.name(anchor)
-        demand(0 <= t0 < t1, "presence: interval")
         box = Box(p, piece)
         mu_bits = rational_bits(low) + rational_bits(high)
         corner_bits = BITS + rational_bits(t0) + rational_bits(t1) + mu_bits
@@ -2146,7 +2318,8 @@ def check_presence(p, doc):
         signs = [box.edge([box.around(x, 0) for x in ends(t, t)], d) for t in (t0, t1)]
         demand(signs[0] * signs[1] == -1, "presence 7: no change of sign")
         low = high
-    return 0, f"ACCEPTED: a solution for every friction in [{start}, {stop}] and some lambda2 >= 0, {len(pieces)} pieces"
+    where = f"every friction in [{start}, {stop}] and some lambda2 >= 0"
+    return 0, f"ACCEPTED: a solution for {where}{whom(p)}, {len(pieces)} pieces"
 
 
 # ---------------------------------------------------------------- stability on an interval of friction
@@ -2253,6 +2426,7 @@ def check_stability(p, doc):
         doc, "format problem_sha256 to mass_sigma lower upper", "from mass_factor condensation")
     start, stop, mass_sigma = Q(0) if start is None else number(start), number(stop), number(mass_sigma)
     demand(digest == p.digest, f"Digest: the problem's is {p.digest}")  # 1
+    demand(p.radii is None, "Radii")
     demand(p.system is not None, "NotASystem")  # 2
     demand(p.unknown == "lambda2", "Unknown: lambda2 was expected")
     demand(not p.halves, "ZeroReaction")
@@ -2384,12 +2558,12 @@ class Loads:
         self.order, self.candidates, self.gaps = len(kept), [], []
         text = ["mceip-canonical-loads/1"]
         for obj in sequence(candidates):
-            if not isinstance(obj, dict) or "state" in obj:
-                raise Unreadable("a candidate has no state")
+            if not isinstance(obj, dict) or "state" in obj or "friction_factor_range" in obj:
+                raise Unreadable("a candidate has no state and no friction_factor_range")
             obj, gap = {key: v for key, v in obj.items() if key != "gap"}, obj.get("gap")
             gap = Q(0) if gap is None else number(gap)
             obj = {**obj, "state": "stick"}
-            t, n, _, tangent, normal, _, factor = Problem.read_particle(obj, order, None)
+            t, n, _, tangent, normal, _, factor, _ = Problem.read_particle(obj, order, None)
             if gap < 0 or t not in new or n not in new or t == n:
                 raise Unreadable("a candidate on a held dof, or with a negative gap")
             tangent, normal = ({new[d]: c for d, c in v.items()} for v in (tangent, normal))
@@ -2541,6 +2715,7 @@ def check(problem_path, certificate_path):
     _, digest, unknown, window, claim_list, complete = fields(doc, "format problem_sha256 unknown window claims", "complete_set")
     window = read_window(window)
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
+    demand(p.radii is None, "Radii: this kind of certificate speaks of one body")
     demand(unknown == p.unknown, "the unknown is not the problem's")
     demand(sequence(claim_list) or complete is not None, "no claim")
     rows, claims = integral_rows(p), []
