@@ -20,8 +20,7 @@ use mceip_check::certificate::{
 };
 use mceip_check::{
     Accepted, AcceptedAbsence, AcceptedClaim, AcceptedCover, AcceptedEquilibrium, AcceptedPresence,
-    AcceptedStability, Place, check, check_critical, check_equilibrium, check_presence,
-    check_stability, with_short_numbers,
+    AcceptedStability, Place, Provable, Rejected, check, with_short_numbers,
 };
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict, judge};
@@ -69,15 +68,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let problem = text("the problem", &args.file)?;
     if require_format(&problem, MCP_FORMAT).is_ok() {
-        refuse_window(args, "a plain problem")?;
-        refuse_tolerance(args, "a plain problem")?;
+        refuse_options(args, "a plain problem")?;
         return plain::verdict(&args.file, &problem, &args.certificate);
     }
 
     if require_format(&problem, LOADS_FORMAT).is_ok() {
-        refuse_window(args, EQUILIBRIUM_FORMAT)?;
-        refuse_tolerance(args, EQUILIBRIUM_FORMAT)?;
-        return equilibrium(args, &problem);
+        refuse_options(args, EQUILIBRIUM_FORMAT)?;
+        let loads = read_loads_of(&problem, &args.file)?;
+        let source = text("the certificate", &args.certificate)?;
+        return verdict::<EquilibriumCertificate>(args, loads.body(), &source, equilibrium_text);
     }
 
     let problem = load(&args.file, None)?;
@@ -88,21 +87,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     if require_format(&source, CRITICAL_FORMAT).is_ok() {
-        refuse_window(args, CRITICAL_FORMAT)?;
-        refuse_tolerance(args, CRITICAL_FORMAT)?;
-        return critical(args, &problem, &source);
+        refuse_options(args, CRITICAL_FORMAT)?;
+        return verdict::<CriticalCertificate>(args, &problem, &source, absence_text);
     }
 
     if require_format(&source, PRESENCE_FORMAT).is_ok() {
-        refuse_window(args, PRESENCE_FORMAT)?;
-        refuse_tolerance(args, PRESENCE_FORMAT)?;
-        return presence(args, &problem, &source);
+        refuse_options(args, PRESENCE_FORMAT)?;
+        return verdict::<PresenceCertificate>(args, &problem, &source, presence_text);
     }
 
     if require_format(&source, STABILITY_FORMAT).is_ok() {
-        refuse_window(args, STABILITY_FORMAT)?;
-        refuse_tolerance(args, STABILITY_FORMAT)?;
-        return stability(args, &problem, &source);
+        refuse_options(args, STABILITY_FORMAT)?;
+        return verdict::<StabilityCertificate>(args, &problem, &source, stability_text);
     }
 
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
@@ -118,33 +114,46 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 }
 
-/// The verdict on a certificate of absence below a friction.
-fn critical(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
-    let read = CriticalCertificate::from_json(source);
-    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+/// The verdict on a certificate of a kind that leaves nothing open; `proved` says what an accepted
+/// one has proved.
+fn verdict<C: Provable>(
+    args: &Args,
+    subject: &C::Subject,
+    source: &str,
+    proved: fn(&C::Subject, &C::Accepted) -> String,
+) -> Result<u8, CliError> {
+    let read = C::read(source);
+    let certificate = read.map_err(|e| CliError::file(&args.certificate, e))?;
 
-    let (text, code) = match decided(|| check_critical(problem, &certificate)) {
-        Ok(AcceptedAbsence {
-            from,
-            below,
-            leaves,
-            is_of_every_member,
-        }) => {
-            let digest = problem.sha256();
-            let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
-            // At mu = 0 a slip particle may slide both ways, of which (9) has one.
-            let begin = if from.is_zero() { "(" } else { "[" };
-            let [from, below] = [&from, &below].map(number_text);
-            let window = format!("friction in {begin}{from}, {below}], lambda2 in [0, infinity)");
-            let of = members(is_of_every_member);
-            let text = format!("ABSENT for {window}: no solution{of} ({evidence})\n");
-            (text, exit::DONE)
-        }
+    let checked = decided(|| {
+        let accepted = certificate.check(subject)?;
+        Ok::<_, Rejected>(proved(subject, &accepted))
+    });
+    let (text, code) = match checked {
+        Ok(text) => (text, exit::DONE),
         Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
     };
 
     print(&text)?;
     Ok(code)
+}
+
+/// No solution below a friction.
+fn absence_text(problem: &Problem, accepted: &AcceptedAbsence) -> String {
+    let AcceptedAbsence {
+        from,
+        below,
+        leaves,
+        is_of_every_member,
+    } = accepted;
+    let of = members(*is_of_every_member);
+    let digest = problem.sha256();
+    let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
+    // At mu = 0 a slip particle may slide both ways, of which (9) has one.
+    let begin = if from.is_zero() { "(" } else { "[" };
+    let [from, below] = [from, below].map(number_text);
+    let window = format!("friction in {begin}{from}, {below}], lambda2 in [0, infinity)");
+    format!("ABSENT for {window}: no solution{of} ({evidence})\n")
 }
 
 /// Of which bodies something is said.
@@ -156,25 +165,8 @@ fn members(is_of_every_member: bool) -> &'static str {
     }
 }
 
-/// The verdict on a certificate of contact states; `loads` is the text of the first file.
-fn equilibrium(args: &Args, loads: &str) -> Result<u8, CliError> {
-    let loads = read_loads_of(loads, &args.file)?;
-    let body = loads.body();
-    let source = text("the certificate", &args.certificate)?;
-    let read = EquilibriumCertificate::from_json(&source);
-    let certificate = read.map_err(|e| CliError::file(&args.certificate, e))?;
-
-    let verdict = || check_equilibrium(body, &certificate).map(|a| equilibrium_text(body, &a));
-    let (text, code) = match decided(verdict) {
-        Ok(text) => (text, exit::DONE),
-        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
-    };
-
-    print(&text)?;
-    Ok(code)
-}
-
-/// What is proved, and the digests of the eigenproblems that certificates about these states name.
+/// Contact states under loads, and the digests of the eigenproblems that certificates about these
+/// states name.
 fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String {
     let AcceptedEquilibrium {
         friction,
@@ -200,66 +192,50 @@ fn equilibrium_text(body: &LoadedBody, accepted: &AcceptedEquilibrium) -> String
     )
 }
 
-/// The verdict on a certificate of presence in an interval of friction.
-fn presence(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
-    let read = PresenceCertificate::from_json(source);
-    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
-
-    let (text, code) = match decided(|| check_presence(problem, &certificate)) {
-        Ok(AcceptedPresence {
-            from,
-            to,
-            pieces,
-            is_of_every_member,
-        }) => {
-            let of = members(is_of_every_member);
-            let digest = problem.sha256();
-            let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
-            let [from, to] = [&from, &to].map(number_text);
-            let text = format!(
-                "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0{of} \
-                 ({evidence})\n"
-            );
-            (text, exit::DONE)
-        }
-        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
-    };
-
-    print(&text)?;
-    Ok(code)
+/// A solution in an interval of friction.
+fn presence_text(problem: &Problem, accepted: &AcceptedPresence) -> String {
+    let AcceptedPresence {
+        from,
+        to,
+        pieces,
+        is_of_every_member,
+    } = accepted;
+    let of = members(*is_of_every_member);
+    let digest = problem.sha256();
+    let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
+    let [from, to] = [from, to].map(number_text);
+    format!(
+        "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0{of} \
+         ({evidence})\n"
+    )
 }
 
-/// The verdict on a certificate of stability in an interval of friction.
-fn stability(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
-    let read = StabilityCertificate::from_json(source);
-    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
-
-    let (text, code) = match decided(|| check_stability(problem, &certificate)) {
-        Ok(AcceptedStability {
-            from,
-            to,
-            is_of_every_motion,
-        }) => {
-            let digest = problem.sha256();
-            // The theorem speaks of mu > 0.
-            let begin = if from.is_zero() { "(" } else { "[" };
-            let [from, to] = [&from, &to].map(number_text);
-            let which = if is_of_every_motion {
-                "motions that begin"
-            } else {
-                "motions that keep to the contact states and begin"
-            };
-            let text = format!(
-                "STABLE for every friction in {begin}{from}, {to}]: {which} near an \
-                 equilibrium in these contact states, in contact, stay near it (problem {digest})\n"
-            );
-            (text, exit::DONE)
-        }
-        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
+/// Stability in an interval of friction.
+fn stability_text(problem: &Problem, accepted: &AcceptedStability) -> String {
+    let AcceptedStability {
+        from,
+        to,
+        is_of_every_motion,
+    } = accepted;
+    let digest = problem.sha256();
+    // The theorem speaks of mu > 0.
+    let begin = if from.is_zero() { "(" } else { "[" };
+    let [from, to] = [from, to].map(number_text);
+    let which = if *is_of_every_motion {
+        "motions that begin"
+    } else {
+        "motions that keep to the contact states and begin"
     };
+    format!(
+        "STABLE for every friction in {begin}{from}, {to}]: {which} near an equilibrium in these \
+         contact states, in contact, stay near it (problem {digest})\n"
+    )
+}
 
-    print(&text)?;
-    Ok(code)
+/// Refuses the options that say nothing about a file of this kind.
+fn refuse_options(args: &Args, kind: &str) -> Result<(), CliError> {
+    refuse_window(args, kind)?;
+    refuse_tolerance(args, kind)
 }
 
 /// Refuses --window, which says nothing about a file of this kind.
