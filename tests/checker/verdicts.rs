@@ -11,85 +11,73 @@ use mceip_check::certificate::{
     PresenceCertificate, STABILITY_FORMAT, StabilityCertificate,
 };
 use mceip_check::{
-    Accepted, AcceptedAbsence, AcceptedCover, AcceptedPresence, AcceptedStability, Rejected,
-    SolutionFamily, audit, audit_critical, check, check_critical, check_equilibrium,
-    check_presence, check_stability,
+    Accepted, AcceptedAbsence, AcceptedCover, AcceptedEquilibrium, AcceptedPresence,
+    AcceptedStability, Provable, Rejected, SolutionFamily, audit, audit_critical, check,
+    check_critical,
 };
 use mceip_exact::Interval;
+use mceip_model::Problem;
 use mceip_model::file::{read_loads, read_problem, require_format};
-use mceip_model::{LoadedBody, Problem};
 use num_traits::Zero;
 use snapbox::{Assert, Data};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// A file of the corpus whose certificate can be read.
-struct Case {
-    name: String,
-    read: Read,
-}
-
-/// A certificate of one of the formats, with what it is about.
-enum Read {
-    Certificate(Problem, Certificate),
-    Critical(Problem, CriticalCertificate),
-    Presence(Problem, PresenceCertificate),
-    Stability(Problem, StabilityCertificate),
-    Equilibrium(Box<LoadedBody>, EquilibriumCertificate),
-}
-
-/// The files whose certificates can be read, by name; those that repeat a unit and those about
-/// plain LCPs and MCPs are for `tests/data/corpus.rs`.
-fn cases() -> Vec<Case> {
-    let mut cases = Vec::new();
-    for entry in entries() {
-        if entry.code != MALFORMED && !entry.is_repeated() && !entry.is_plain() {
-            cases.push(read_case(&entry));
-        }
-    }
-    cases
-}
-
-fn read_case(entry: &Entry) -> Case {
-    let text = &entry.certificate;
-    let problem = || read_problem(&entry.problem, Path::new("/")).unwrap();
-    let read = if entry.is_loads() {
-        let file = read_loads(&entry.problem, Path::new("/")).unwrap();
-        let certificate = EquilibriumCertificate::from_json(text).unwrap();
-        Read::Equilibrium(Box::new(file.body), certificate)
-    } else if require_format(text, CRITICAL_FORMAT).is_ok() {
-        Read::Critical(problem(), CriticalCertificate::from_json(text).unwrap())
-    } else if require_format(text, PRESENCE_FORMAT).is_ok() {
-        Read::Presence(problem(), PresenceCertificate::from_json(text).unwrap())
-    } else if require_format(text, STABILITY_FORMAT).is_ok() {
-        Read::Stability(problem(), StabilityCertificate::from_json(text).unwrap())
-    } else {
-        Read::Certificate(problem(), Certificate::from_json(text).unwrap())
-    };
-
-    Case {
-        name: entry.name.clone(),
-        read,
-    }
-}
-
-/// The text of `tests/verdicts.txt`: each line begins with the name of a file.
+/// The text of `tests/verdicts.txt`: each line begins with the name of a file. The files are those
+/// whose certificates can be read; those that repeat a unit and those about plain LCPs and MCPs are
+/// for `tests/data/corpus.rs`.
 fn verdicts() -> String {
     let mut text = String::new();
-    for case in cases() {
-        let name = &case.name;
-        let lines = match &case.read {
-            Read::Certificate(problem, certificate) => lines_of(name, problem, certificate),
-            Read::Critical(problem, certificate) => critical_lines(name, problem, certificate),
-            Read::Presence(problem, certificate) => presence_lines(problem, certificate),
-            Read::Stability(problem, certificate) => stability_lines(problem, certificate),
-            Read::Equilibrium(body, certificate) => equilibrium_lines(body, certificate),
-        };
-        for line in lines {
-            writeln!(text, "{}: {line}", case.name).unwrap();
+    for entry in entries() {
+        if entry.code == MALFORMED || entry.is_repeated() || entry.is_plain() {
+            continue;
+        }
+        for line in lines_of_entry(&entry) {
+            writeln!(text, "{}: {line}", entry.name).unwrap();
         }
     }
     text
+}
+
+fn lines_of_entry(entry: &Entry) -> Vec<String> {
+    let name = &entry.name;
+    let text = &entry.certificate;
+    if entry.is_loads() {
+        let file = read_loads(&entry.problem, Path::new("/")).unwrap();
+        return line_of::<EquilibriumCertificate>(&file.body, text, equilibrium_line);
+    }
+
+    let problem = read_problem(&entry.problem, Path::new("/")).unwrap();
+    let is_of_format = |format| require_format(text, format).is_ok();
+    if is_of_format(CRITICAL_FORMAT) {
+        critical_lines(
+            name,
+            &problem,
+            &CriticalCertificate::from_json(text).unwrap(),
+        )
+    } else if is_of_format(PRESENCE_FORMAT) {
+        line_of::<PresenceCertificate>(&problem, text, presence_line)
+    } else if is_of_format(STABILITY_FORMAT) {
+        line_of::<StabilityCertificate>(&problem, text, stability_line)
+    } else {
+        lines_of(name, &problem, &Certificate::from_json(text).unwrap())
+    }
+}
+
+/// The line of a certificate of a kind that leaves nothing open.
+fn line_of<C: Provable>(
+    subject: &C::Subject,
+    text: &str,
+    accepted_line: fn(C::Accepted) -> String,
+) -> Vec<String> {
+    let Ok(certificate) = C::read(text) else {
+        panic!("a certificate that is read: {text}")
+    };
+    let line = match certificate.check(subject) {
+        Ok(accepted) => accepted_line(accepted),
+        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
+    };
+    vec![line]
 }
 
 fn lines_of(name: &str, problem: &Problem, certificate: &Certificate) -> Vec<String> {
@@ -119,9 +107,7 @@ fn critical_lines(name: &str, problem: &Problem, certificate: &CriticalCertifica
                 format!("from {from} ")
             };
             let of = members(is_of_every_member);
-            vec![format!(
-                "absence {above}below {below}, leaves: {leaves}{of}"
-            )]
+            vec![format!("absence {above}below {below}, leaves: {leaves}{of}")]
         }
         (Err(rejected), Ok(list)) => {
             vec![
@@ -137,6 +123,17 @@ fn critical_lines(name: &str, problem: &Problem, certificate: &CriticalCertifica
     }
 }
 
+fn presence_line(accepted: AcceptedPresence) -> String {
+    let AcceptedPresence {
+        from,
+        to,
+        pieces,
+        is_of_every_member,
+    } = accepted;
+    let of = members(is_of_every_member);
+    format!("presence from {from} to {to}, pieces: {pieces}{of}")
+}
+
 fn members(is_of_every_member: bool) -> &'static str {
     if is_of_every_member {
         ", every member"
@@ -145,51 +142,24 @@ fn members(is_of_every_member: bool) -> &'static str {
     }
 }
 
-fn presence_lines(problem: &Problem, certificate: &PresenceCertificate) -> Vec<String> {
-    let line = match check_presence(problem, certificate) {
-        Ok(AcceptedPresence {
-            from,
-            to,
-            pieces,
-            is_of_every_member,
-        }) => {
-            let of = members(is_of_every_member);
-            format!("presence from {from} to {to}, pieces: {pieces}{of}")
-        }
-        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
+fn stability_line(accepted: AcceptedStability) -> String {
+    let AcceptedStability {
+        from,
+        to,
+        is_of_every_motion,
+    } = accepted;
+    let of = if is_of_every_motion {
+        "every motion"
+    } else {
+        "motions that keep to their states"
     };
-    vec![line]
+    format!("stability from {from} to {to} of {of}")
 }
 
-fn stability_lines(problem: &Problem, certificate: &StabilityCertificate) -> Vec<String> {
-    let line = match check_stability(problem, certificate) {
-        Ok(AcceptedStability {
-            from,
-            to,
-            is_of_every_motion,
-        }) => {
-            let of = if is_of_every_motion {
-                "every motion"
-            } else {
-                "motions that keep to their states"
-            };
-            format!("stability from {from} to {to} of {of}")
-        }
-        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
-    };
-    vec![line]
-}
-
-fn equilibrium_lines(body: &LoadedBody, certificate: &EquilibriumCertificate) -> Vec<String> {
-    let line = match check_equilibrium(body, certificate) {
-        Ok(accepted) => {
-            let states = accepted.states.iter().map(|state| state.letter());
-            let states: String = states.collect();
-            format!("equilibrium in the states {states}")
-        }
-        Err(rejected) => format!("{}: {rejected}", rejected.reason.name()),
-    };
-    vec![line]
+fn equilibrium_line(accepted: AcceptedEquilibrium) -> String {
+    let states = accepted.states.iter().map(|state| state.letter());
+    let states: String = states.collect();
+    format!("equilibrium in the states {states}")
 }
 
 fn accepted_lines(accepted: &Accepted) -> Vec<String> {
