@@ -7,14 +7,16 @@
 //! A block is named by the list `active` of its rows and columns, ascending: the free variables and
 //! the variables of a support. Vectors are lists of integer polynomials in t.
 //!
-//! Called by `plain` (one support after the other), `cone` (one support at one value) and `range`
-//! (supports whose block is singular for every t).
+//! Called by `plain` (one support after the other), `cone` (one support at one value), `range`
+//! (supports whose block is singular for every t), and by makers of wrong answers.
 
-use mceip_exact::{Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at};
+use mceip_exact::{
+    Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at, submatrix,
+};
 use mceip_model::Pencil;
 
 /// A pencil whose rows have been made integral, and its free variables.
-pub(super) struct IntegerPencil<'a> {
+pub struct IntegerPencil<'a> {
     a: Vec<Vec<Integer>>,
     b: Vec<Vec<Integer>>,
     free: &'a [usize],
@@ -28,13 +30,15 @@ pub(super) struct Eigenspace {
 }
 
 impl<'a> IntegerPencil<'a> {
-    pub(super) fn of(pencil: &'a Pencil) -> Self {
+    /// The pencil with each row times what clears its denominators.
+    pub fn of(pencil: &'a Pencil) -> Self {
         let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
         let free = pencil.free();
         IntegerPencil { a, b, free }
     }
 
-    pub(super) fn order(&self) -> usize {
+    /// Number of variables.
+    pub fn order(&self) -> usize {
         self.a.len()
     }
 
@@ -61,7 +65,7 @@ impl<'a> IntegerPencil<'a> {
     }
 
     /// The free variables and those of the support, ascending.
-    pub(super) fn active(&self, support: &[usize]) -> Vec<usize> {
+    pub fn active(&self, support: &[usize]) -> Vec<usize> {
         let mut active = [self.free, support].concat();
         active.sort_unstable();
         active
@@ -75,7 +79,7 @@ impl<'a> IntegerPencil<'a> {
     }
 
     /// The block of A + tB, over `Z[t]`.
-    pub(super) fn block(&self, active: &[usize]) -> Vec<Vec<Poly>> {
+    pub fn block(&self, active: &[usize]) -> Vec<Vec<Poly>> {
         active
             .iter()
             .map(|&i| active.iter().map(|&j| self.entry(i, j)).collect())
@@ -83,10 +87,10 @@ impl<'a> IntegerPencil<'a> {
     }
 
     /// The determinant of the block, a polynomial in t.
-    pub(super) fn determinant(&self, active: &[usize]) -> Poly {
+    pub fn determinant(&self, active: &[usize]) -> Poly {
         determinant(
-            &principal_submatrix(&self.a, active),
-            &principal_submatrix(&self.b, active),
+            &submatrix(&self.a, active, active),
+            &submatrix(&self.b, active, active),
         )
     }
 
@@ -102,8 +106,8 @@ impl<'a> IntegerPencil<'a> {
         }
 
         let cofactors = first_row_cofactors(
-            &principal_submatrix(&self.a, active),
-            &principal_submatrix(&self.b, active),
+            &submatrix(&self.a, active, active),
+            &submatrix(&self.b, active, active),
         );
 
         let mut eigenspaces = Vec::with_capacity(roots.len());
@@ -121,7 +125,7 @@ impl<'a> IntegerPencil<'a> {
     }
 
     /// A vector over `active` as one over all variables, zero elsewhere.
-    pub(super) fn extend(&self, active: &[usize], vector: &[Poly]) -> Vec<Poly> {
+    pub fn extend(&self, active: &[usize], vector: &[Poly]) -> Vec<Poly> {
         let mut x = vec![Poly::default(); self.order()];
         for (&i, x_i) in active.iter().zip(vector) {
             x[i] = x_i.clone();
@@ -130,7 +134,7 @@ impl<'a> IntegerPencil<'a> {
     }
 
     /// y = (A + tB) x.
-    pub(super) fn times(&self, x: &[Poly]) -> Vec<Poly> {
+    pub fn times(&self, x: &[Poly]) -> Vec<Poly> {
         let mut y = Vec::with_capacity(self.order());
         for i in 0..self.order() {
             let mut y_i = Poly::default();
@@ -167,12 +171,4 @@ impl<'a> IntegerPencil<'a> {
 /// Entry i of each of the vectors.
 pub(super) fn entries_of(vectors: &[Vec<Poly>], i: usize) -> Vec<Poly> {
     vectors.iter().map(|vector| vector[i].clone()).collect()
-}
-
-/// The rows and columns `active` of a matrix.
-fn principal_submatrix(matrix: &[Vec<Integer>], active: &[usize]) -> Vec<Vec<Integer>> {
-    active
-        .iter()
-        .map(|&i| active.iter().map(|&j| matrix[i][j].clone()).collect())
-        .collect()
 }
