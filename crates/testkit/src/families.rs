@@ -16,97 +16,30 @@ use num_traits::{One, Zero};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A corner that a generator reaches on purpose.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Corner {
-    /// x_i = y_i = 0 for some i.
-    Biactive,
-    /// A repeated eigenvalue with a kernel of dimension 1.
-    Repeated,
-    /// A solution with value 0.
-    ZeroValue,
-    /// A kernel of dimension > 1.
-    WideKernel,
-    /// A support whose pencil is singular.
-    Singular,
-    /// Exactly on a threshold of Table 1.
-    Threshold,
-    /// One variable.
-    OneByOne,
-    /// Free variables present.
-    FreeVariables,
-    /// An oblique particle.
-    Oblique,
-    /// A stick particle.
-    Stick,
-    /// A mass matrix that couples T and N, so that M1 does not vanish.
-    CoupledMass,
-    /// At a relative distance of 1e-3 to 1e-15 from a threshold, a double root or a biactive index.
-    NearThreshold,
-    /// Matrices of large condition number.
-    IllConditioned,
-    /// Entries of 1e12 and more.
-    HugeScale,
-    /// Entries of 1e-12 and less.
-    TinyScale,
-    /// A solution planted by construction.
-    Planted,
-    /// A window with two finite ends.
-    FiniteWindow,
-    /// A window of one point.
-    PointWindow,
-    /// No solution at all.
-    Empty,
-}
-
-impl Corner {
-    /// All of them.
-    pub const ALL: [Corner; 19] = [
-        Corner::Biactive,
-        Corner::Repeated,
-        Corner::ZeroValue,
-        Corner::WideKernel,
-        Corner::Singular,
-        Corner::Threshold,
-        Corner::OneByOne,
-        Corner::FreeVariables,
-        Corner::Oblique,
-        Corner::Stick,
-        Corner::CoupledMass,
-        Corner::NearThreshold,
-        Corner::IllConditioned,
-        Corner::HugeScale,
-        Corner::TinyScale,
-        Corner::Planted,
-        Corner::FiniteWindow,
-        Corner::PointWindow,
-        Corner::Empty,
-    ];
-
-    /// In words, for people.
-    pub fn word(self) -> &'static str {
-        match self {
-            Corner::Biactive => "biactive",
-            Corner::Repeated => "repeated eigenvalue",
-            Corner::ZeroValue => "value 0",
-            Corner::WideKernel => "kernel of several dimensions",
-            Corner::Singular => "singular support",
-            Corner::Threshold => "on a threshold of Table 1",
-            Corner::OneByOne => "one variable",
-            Corner::FreeVariables => "free variables",
-            Corner::Oblique => "oblique particle",
-            Corner::Stick => "stick particle",
-            Corner::CoupledMass => "mass that couples T and N",
-            Corner::NearThreshold => "near a threshold",
-            Corner::IllConditioned => "ill-conditioned",
-            Corner::HugeScale => "huge entries",
-            Corner::TinyScale => "tiny entries",
-            Corner::Planted => "planted solution",
-            Corner::FiniteWindow => "finite window",
-            Corner::PointWindow => "window of one value",
-            Corner::Empty => "no solution",
-        }
-    }
+worded! {
+    /// A corner that a generator reaches on purpose; its word is for tables.
+    Corner:
+    Biactive "biactive" "x_i = y_i = 0 for some i.",
+    Repeated "repeated eigenvalue" "A repeated eigenvalue with a kernel of dimension 1.",
+    ZeroValue "value 0" "A solution with value 0.",
+    WideKernel "kernel of several dimensions" "A kernel of dimension > 1.",
+    Singular "singular support" "A support whose pencil is singular.",
+    Threshold "on a threshold of Table 1" "Exactly on a threshold of Table 1.",
+    OneByOne "one variable" "One variable.",
+    FreeVariables "free variables" "Free variables present.",
+    Oblique "oblique particle" "An oblique particle.",
+    Stick "stick particle" "A stick particle.",
+    CoupledMass "mass that couples T and N" "A mass matrix that couples T and N: M1 does not \
+                                             vanish.",
+    NearThreshold "near a threshold" "At a relative distance of 1e-3 to 1e-15 from a threshold, a \
+                                      double root or a biactive index.",
+    IllConditioned "ill-conditioned" "Matrices of large condition number.",
+    HugeScale "huge entries" "Entries of 1e12 and more.",
+    TinyScale "tiny entries" "Entries of 1e-12 and less.",
+    Planted "planted solution" "A solution planted by construction.",
+    FiniteWindow "finite window" "A window with two finite ends.",
+    PointWindow "window of one value" "A window of one point.",
+    Empty "no solution" "No solution at all.",
 }
 
 /// A problem of a family, with the closed form where there is one.

@@ -19,6 +19,9 @@
 //! Everything is compared with the plain enumerator of `mceip-oracle`; a difference is a
 //! [`Disagreement`], and each one is a bug.
 
+#[macro_use]
+mod worded;
+
 mod block;
 pub mod campaign;
 mod compare;
