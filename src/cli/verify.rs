@@ -93,7 +93,7 @@ fn text_of(v: &Verification, counts: Option<&VerifiedCounts>, is_verbose: bool) 
 
     out += "\n";
     for family in &v.families {
-        for disagreement in &family.disagreements {
+        for disagreement in &family.tally.disagreements {
             out += &format!("DISAGREEMENT: {}: {disagreement}\n", family.name);
         }
     }
@@ -156,23 +156,24 @@ fn verified_text(counts: &VerifiedCounts) -> String {
 }
 
 fn row(family: &FamilyReport) -> Vec<String> {
+    let tally = &family.tally;
     vec![
         family.name.to_string(),
         count(family),
-        family.oracle.to_string(),
-        format!("{}/{}", family.found, family.findable),
-        format!("{}/{}", family.completed, family.done),
-        family.accepted.to_string(),
-        family.uncertified.len().to_string(),
+        tally.solutions.to_string(),
+        format!("{}/{}", tally.found, tally.findable),
+        format!("{}/{}", tally.closed, tally.instances),
+        tally.accepted.to_string(),
+        tally.uncertified.to_string(),
         family.rejected.to_string(),
-        family.degenerate.to_string(),
-        family.disagreements.len().to_string(),
+        tally.degenerate.to_string(),
+        tally.disagreements.len().to_string(),
     ]
 }
 
 /// What the table has no room for: corner cases, and points that stayed without certificate.
 fn details_of(family: &FamilyReport) -> String {
-    let corners = family.corners.iter();
+    let corners = family.tally.corners();
     let corners: Vec<String> = corners
         .map(|(corner, count)| format!("{} {count}", corner.word()))
         .collect();
@@ -180,7 +181,7 @@ fn details_of(family: &FamilyReport) -> String {
         "{}: {}; {} pivots\n",
         family.name,
         corners.join(", "),
-        family.pivots
+        family.tally.pivots
     );
     for point in &family.uncertified {
         out += &format!("  uncertified: {point}\n");
@@ -231,17 +232,19 @@ pub(super) fn coverage_text(covered: &[Covered], shortfalls: &[Shortfall]) -> St
 
 /// The number of instances treated, and of how many if the run was interrupted.
 fn count(family: &FamilyReport) -> String {
-    if family.done == family.instances {
-        family.done.to_string()
+    let done = family.tally.instances;
+    if done == family.instances as u64 {
+        done.to_string()
     } else {
-        format!("{} of {}", family.done, family.instances)
+        format!("{done} of {}", family.instances)
     }
 }
 
 fn verdict(v: &Verification) -> String {
     let seed = v.seed;
-    let instances: usize = v.families.iter().map(|family| family.done).sum();
-    let accepted: usize = v.families.iter().map(|family| family.accepted).sum();
+    let tallies = v.families.iter().map(|family| &family.tally);
+    let instances: u64 = tallies.clone().map(|tally| tally.instances).sum();
+    let accepted: u64 = tallies.map(|tally| tally.accepted).sum();
 
     match (v.disagreements(), v.interrupted) {
         (0, false) => format!(
@@ -267,53 +270,30 @@ fn json_of(v: &Verification, counts: Option<&VerifiedCounts>) -> Value {
         "seed": v.seed,
         "families": families,
         "block": block,
-        "verified": counts.map(verified_json),
+        "verified": counts,
         "disagreements": v.disagreements(),
         "interrupted": v.interrupted,
         "verdict": verdict(v),
     })
 }
 
-fn verified_json(counts: &VerifiedCounts) -> Value {
-    let mut kinds = serde_json::Map::new();
-    for (kind, of_kind) in &counts.kinds {
-        let value = json!({
-            "accepted": of_kind.accepted,
-            "not_verified": of_kind.not_verified,
-            "refused": of_kind.refused,
-        });
-        kinds.insert((*kind).to_string(), value);
-    }
-
-    json!({
-        "accepted": counts.accepted,
-        "refused": counts.refused,
-        "not_verified": counts.not_verified,
-        "kinds": kinds,
-    })
-}
-
 fn family_json(family: &FamilyReport) -> Value {
-    let mut corners = serde_json::Map::new();
-    for (corner, count) in &family.corners {
-        corners.insert(format!("{corner:?}"), json!(count));
-    }
-
+    let tally = &family.tally;
     json!({
         "name": family.name,
         "instances": family.instances,
-        "done": family.done,
-        "oracle_solutions": family.oracle,
-        "findable": family.findable,
-        "found": family.found,
-        "completed": family.completed,
-        "accepted": family.accepted,
+        "done": tally.instances,
+        "oracle_solutions": tally.solutions,
+        "findable": tally.findable,
+        "found": tally.found,
+        "completed": tally.closed,
+        "accepted": tally.accepted,
         "uncertified": family.uncertified,
         "forgeries_rejected": family.rejected,
-        "degenerate": family.degenerate,
-        "pivots": family.pivots,
-        "corners": corners,
-        "disagreements": family.disagreements,
+        "degenerate": tally.degenerate,
+        "pivots": tally.pivots,
+        "corners": tally.corners,
+        "disagreements": tally.disagreements,
     })
 }
 
@@ -347,7 +327,7 @@ pub(super) fn covered_json(covered: &Covered) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_testkit::Corner;
+    use mceip_testkit::Tally;
     use mceip_testkit::floors::{Coverage, Starts};
     use mceip_testkit::verified::KindCounts;
 
@@ -361,7 +341,10 @@ mod tests {
         };
         let family = FamilyReport {
             name: "random pencils",
-            coverage: [(Starts::Search, coverage)].into(),
+            tally: Tally {
+                coverage: [(Starts::Search.word().into(), coverage)].into(),
+                ..Tally::default()
+            },
             ..FamilyReport::default()
         };
 
@@ -437,6 +420,7 @@ mod tests {
     fn a_refusal_is_a_disagreement_and_exit_1() {
         let mut run = run_with_coverage(100, 100);
         run.families[0]
+            .tally
             .disagreements
             .push("random pencils 3: the verified checker".into());
         assert_eq!(exit_code(&run), exit::REJECTED);
@@ -453,7 +437,8 @@ mod tests {
         run.families[0]
             .uncertified
             .push("random pencils 5: no root".into());
-        run.families[0].corners.insert(Corner::WideKernel, 3);
+        let corners = &mut run.families[0].tally.corners;
+        corners.insert("WideKernel".into(), 3);
 
         let short = text_of(&run, None, false);
         assert!(

@@ -106,9 +106,9 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
             let planted = verify_family(name, instances, &treatment, &Watch::silent(&stop));
 
             assert!(
-                planted.disagreements.is_empty(),
+                planted.tally.disagreements.is_empty(),
                 "{name}: what is found is true: {:?}",
-                planted.disagreements
+                planted.tally.disagreements
             );
 
             let verification = Verification {

@@ -37,6 +37,7 @@ mod interior;
 pub mod known;
 mod large;
 pub mod pareto;
+mod tally;
 pub mod targets;
 pub mod verified;
 mod verify;
@@ -57,4 +58,5 @@ pub use interior::{
     INTERIOR_STARTS, InteriorStart, from_interior, interior_starts, path_coverage, path_options,
 };
 pub use large::{backslash_block, condensed_in_doubles, mechanical_pencil, refined_block};
+pub use tally::Tally;
 pub use verify::{FamilyReport, Verification, verify, verify_family};

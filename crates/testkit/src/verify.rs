@@ -9,14 +9,14 @@ use super::block::{BlockReport, block_state};
 use super::compare::{InstanceReport, Treatment, compare_by};
 use super::disagreement::Disagreement;
 use super::error::TestkitError;
-use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
-use super::floors::{Coverage, Covered, Shortfall, Starts};
+use super::families::{Instance, degenerate, mechanical, random_pencils, table1_grid};
+use super::floors::{Covered, Shortfall, Starts};
+use super::tally::Tally;
 use super::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Progress, Watch};
 use mceip_paper::{Block, MassKind, PublishedState};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A family's row.
@@ -24,72 +24,35 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct FamilyReport {
     /// Name of the family.
     pub name: &'static str,
-    /// Instances in the family.
+    /// Instances in the family; those treated are counted (fewer after an interrupt).
     pub instances: usize,
-    /// Instances treated (fewer after an interrupt).
-    pub done: usize,
-    /// Solutions listed by the enumerator.
-    pub oracle: usize,
-    /// Of those in admissible instances, found by the solver; on Table 1 from interior starts.
-    pub found: usize,
-    /// Solutions listed by the enumerator in admissible instances.
-    pub findable: usize,
-    /// Certificates accepted.
-    pub accepted: usize,
+    /// What came of those treated. Found on Table 1 is what is found from interior starts.
+    pub tally: Tally,
     /// Candidates uncertified, with instance and reason.
     pub uncertified: Vec<String>,
     /// Forgeries rejected for the stated reason.
     pub rejected: usize,
-    /// Instances with a wide kernel or a singular pencil.
-    pub degenerate: usize,
-    /// Instances that the complete search closed, with the enumerator's answer.
-    pub completed: usize,
-    /// Pivots.
-    pub pivots: usize,
-    /// Corners reached, with how many instances.
-    pub corners: BTreeMap<Corner, usize>,
-    /// Coverage by kind of start, to be held against the floors.
-    pub coverage: BTreeMap<Starts, Coverage>,
     /// Verdicts of the verified checker; all zero without one.
     pub verified: VerifiedCounts,
-    /// Disagreements, with instance.
-    pub disagreements: Vec<String>,
 }
 
 impl FamilyReport {
     /// Adds what came of one instance.
     fn add(&mut self, report: &InstanceReport) {
-        self.oracle += report.oracle;
-        if report.solved {
-            self.findable += report.oracle;
-        }
-        self.found += report.found;
-        self.accepted += report.accepted;
-        self.degenerate += usize::from(report.degenerate);
-        self.completed += usize::from(report.completed);
-        self.pivots += report.pivots;
+        self.tally.count(report);
         self.verified.add(&report.verified);
 
         let is_of_a_forgery = |d: &&Disagreement| matches!(d, Disagreement::Forgery { .. });
         let wrong_forgeries = report.disagreements.iter().filter(is_of_a_forgery).count();
         self.rejected += report.forgeries - wrong_forgeries;
 
-        for (starts, coverage) in report.coverage() {
-            self.coverage.entry(starts).or_default().add(&coverage);
-        }
-
         let label = &report.label;
         for reason in &report.uncertified {
             self.uncertified.push(format!("{label}: {reason}"));
         }
         for disagreement in &report.disagreements {
-            self.disagreements.push(format!("{label}: {disagreement}"));
-        }
-
-        // An instance counts once for each corner.
-        let corners: BTreeSet<Corner> = report.corners.iter().copied().collect();
-        for corner in corners {
-            *self.corners.entry(corner).or_default() += 1;
+            let said = format!("{label}: {disagreement}");
+            self.tally.disagreements.push(said);
         }
     }
 }
@@ -112,7 +75,7 @@ impl Verification {
     pub fn disagreements(&self) -> usize {
         let mut count = self.shortfalls().len();
         for family in &self.families {
-            count += family.disagreements.len();
+            count += family.tally.disagreements.len();
         }
         for block in &self.block {
             count += block.rejected.len() + block.refused.len();
@@ -138,13 +101,7 @@ impl Verification {
     pub fn covered(&self) -> Vec<Covered> {
         let mut out = Vec::new();
         for family in &self.families {
-            for (starts, coverage) in &family.coverage {
-                out.push(Covered {
-                    family: family.name.into(),
-                    starts: *starts,
-                    coverage: *coverage,
-                });
-            }
+            out.extend(family.tally.covered(family.name));
         }
 
         for block in &self.block {
@@ -252,7 +209,6 @@ pub fn verify_family(
     let mut row = FamilyReport {
         name,
         instances: instances.len(),
-        done: reports.len(),
         ..FamilyReport::default()
     };
     for report in &reports {

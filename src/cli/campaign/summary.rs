@@ -3,7 +3,8 @@
 
 use crate::cli::verify::{coverage_text, covered_json};
 use mceip_engine::report::Table;
-use mceip_testkit::campaign::{CaseFindings, Replay, State, Tally};
+use mceip_testkit::Tally;
+use mceip_testkit::campaign::{CaseFindings, Replay, State};
 use serde_json::{Value, json};
 
 /// The summary for people.
@@ -123,23 +124,15 @@ pub(super) fn json_of(state: &State) -> Value {
     })
 }
 
+/// The counts of a family as a state file has them; coverage stands in a list of its own.
 fn family_json(name: &str, tally: &Tally) -> Value {
-    json!({
-        "name": name,
-        "instances": tally.instances,
-        "solutions": tally.solutions,
-        "findable": tally.findable,
-        "found": tally.found,
-        "closed": tally.closed,
-        "undecided": tally.instances - tally.closed,
-        "accepted": tally.accepted,
-        "forgeries": tally.forgeries,
-        "uncertified": tally.uncertified,
-        "degenerate": tally.degenerate,
-        "pivots": tally.pivots,
-        "corners": tally.corners,
-        "disagreements": tally.disagreements,
-    })
+    let mut out = json!(tally);
+    out["name"] = json!(name);
+    out["undecided"] = json!(tally.instances - tally.closed);
+    if let Some(fields) = out.as_object_mut() {
+        fields.remove("coverage");
+    }
+    out
 }
 
 /// What a replay file was about, and what its case gives when it is judged again.

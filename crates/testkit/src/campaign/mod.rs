@@ -30,4 +30,4 @@ pub use family::{CampaignCase, FAMILIES, Id, case, family_error};
 pub use replay::{REPLAY_FORMAT, Replay};
 pub use run::{Campaign, CampaignEvent, CampaignLimit};
 pub use shrink::{MAX_TRIES, shrink, smaller};
-pub use state::{MAX_INSTANCES, STATE_FORMAT, State, Tally};
+pub use state::{MAX_INSTANCES, STATE_FORMAT, State};

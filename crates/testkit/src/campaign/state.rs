@@ -4,84 +4,16 @@
 //! format is `mceip-campaign/1`. Written and read by `mceip campaign --state`; the counts are held
 //! against the floors of `floors`.
 
-use super::engine::CaseFindings;
 use super::family::Id;
 use crate::error::TestkitError;
-use crate::floors::{Coverage, Covered, Shortfall, Starts};
+use crate::floors::{Covered, Shortfall};
+use crate::tally::Tally;
 use mceip_model::file::{from_json_with_unique_keys, require_format};
 use mceip_model::sha256;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The format of a state file.
 pub const STATE_FORMAT: &str = "mceip-campaign/1";
-
-/// Counts of one family.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Tally {
-    /// Instances judged.
-    pub instances: u64,
-    /// Solutions the enumerator lists.
-    pub solutions: u64,
-    /// Of those in admissible instances (where the solver runs), all of them.
-    pub findable: u64,
-    /// Of these, found by the solver and certified.
-    pub found: u64,
-    /// Coverage by kind of start; absent in state files written before there were floors.
-    #[serde(default)]
-    pub coverage: BTreeMap<String, Coverage>,
-    /// Certificates accepted by the checker.
-    pub accepted: u64,
-    /// Forgeries tried; each one accepted is a disagreement.
-    pub forgeries: u64,
-    /// Instances closed by the complete search, with the enumerator's answer.
-    pub closed: u64,
-    /// Candidates that stayed uncertified: the solver's, and the enumerator's on singular supports.
-    pub uncertified: u64,
-    /// Instances with a wide kernel or a singular pencil.
-    pub degenerate: u64,
-    /// Pivots of the solver.
-    pub pivots: u64,
-    /// Instances per corner reached.
-    pub corners: BTreeMap<String, u64>,
-    /// Disagreements: instance, engine, and what was said.
-    pub disagreements: Vec<String>,
-}
-
-impl Tally {
-    /// Adds what came of one instance.
-    pub fn add(&mut self, id: &Id, judged: &CaseFindings) {
-        let report = &judged.report;
-        self.instances += 1;
-        self.solutions += report.oracle as u64;
-        if report.solved {
-            self.findable += report.oracle as u64;
-        }
-        self.found += report.found as u64;
-        self.accepted += report.accepted as u64;
-        self.forgeries += report.forgeries as u64;
-        self.closed += u64::from(report.completed);
-        self.uncertified += report.uncertified.len() as u64;
-        self.degenerate += u64::from(report.degenerate);
-        self.pivots += report.pivots as u64;
-
-        for (starts, coverage) in report.coverage() {
-            let word = starts.word().to_string();
-            self.coverage.entry(word).or_default().add(&coverage);
-        }
-
-        for corner in &report.corners {
-            let name = format!("{corner:?}");
-            *self.corners.entry(name).or_default() += 1;
-        }
-
-        for finding in &judged.findings {
-            let said = format!("{id}: {}: {}", finding.engine, finding.disagreement);
-            self.disagreements.push(said);
-        }
-    }
-}
 
 /// A campaign so far. Instances are taken in a fixed order, so one number says which are done.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -146,20 +78,10 @@ impl State {
 
     /// Coverage of each family and kind of start that was met.
     pub fn covered(&self) -> Vec<Covered> {
-        let mut out = Vec::new();
-        for (family, tally) in self.families.iter().zip(&self.tallies) {
-            for starts in Starts::ALL {
-                if let Some(coverage) = tally.coverage.get(starts.word()) {
-                    out.push(Covered {
-                        family: family.clone(),
-                        starts,
-                        coverage: *coverage,
-                    });
-                }
-            }
-        }
-
-        out
+        let families = self.families.iter().zip(&self.tallies);
+        families
+            .flat_map(|(family, tally)| tally.covered(family))
+            .collect()
     }
 
     /// Rates that are below their floors by more than chance explains: findings of a family, not of

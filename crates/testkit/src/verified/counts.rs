@@ -9,7 +9,7 @@ use mceip_model::Problem;
 use std::collections::BTreeMap;
 
 /// Verdicts on certificates.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize)]
 pub struct VerifiedCounts {
     /// Certificates whose statement is proved, those with open regions among them.
     pub accepted: usize,
@@ -23,7 +23,7 @@ pub struct VerifiedCounts {
 }
 
 /// Verdicts on the certificates that hold one kind of evidence.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
 pub struct KindCounts {
     /// With a proved statement.
     pub accepted: usize,
