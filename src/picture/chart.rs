@@ -23,6 +23,17 @@ pub(super) struct Axis<'a> {
     pub(super) ticks: usize,
 }
 
+impl<'a> Axis<'a> {
+    pub(super) fn linear(label: &'a str, values: (f64, f64), ticks: usize) -> Axis<'a> {
+        Axis {
+            label,
+            spread: Spread::Linear,
+            values,
+            ticks,
+        }
+    }
+}
+
 /// A rectangle on the paper, px; the top has the smaller y.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rectangle {

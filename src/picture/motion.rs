@@ -44,12 +44,11 @@ pub fn motion_picture(
     let values = Extent::of(points.iter().map(|p| p.1));
     let is_log = spread == Spread::Log;
 
-    let x = Axis {
-        label: "time (unit: root of mass / stiffness)",
-        spread: Spread::Linear,
-        values: (0.0, times.high),
-        ticks: 8,
-    };
+    let x = Axis::linear(
+        "time (unit: root of mass / stiffness)",
+        (0.0, times.high),
+        8,
+    );
     let y = Axis {
         label: quantity,
         spread,

@@ -13,7 +13,6 @@ use super::legend::legend;
 use super::marker::Mark;
 use super::markup::Element;
 use super::names::short_names;
-use super::scale::Spread;
 use mceip_exact::to_f64;
 use mceip_model::{ContactState, Coordinates, Particle};
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
@@ -239,18 +238,8 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
     // The names of the steps stand above the curves.
     let margin = 0.08 * (highest - lowest);
 
-    let x = Axis {
-        label: LOAD,
-        spread: Spread::Linear,
-        values: (0.0, ends.last().copied().unwrap_or(1.0)),
-        ticks: 9,
-    };
-    let y = Axis {
-        label: RESULTANTS,
-        spread: Spread::Linear,
-        values: (lowest, highest + margin),
-        ticks: 7,
-    };
+    let x = Axis::linear(LOAD, (0.0, ends.last().copied().unwrap_or(1.0)), 9);
+    let y = Axis::linear(RESULTANTS, (lowest, highest + margin), 7);
     let chart = Chart::new(AREA, &x, &y);
     picture.push(chart.frame(&x, &y));
 

@@ -9,7 +9,7 @@
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;
 use super::markup::{Element, point_list};
-use super::scale::{Extent, Spread, label};
+use super::scale::{Extent, label};
 
 /// What is known of divergence at some mu.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -141,24 +141,14 @@ impl PresenceChart {
         values.extend(self.members.into_iter().flatten());
 
         let Extent { high, .. } = Extent::of(values.into_iter());
-        Axis {
-            label: "coefficient of friction \u{3bc}",
-            spread: Spread::Linear,
-            values: (0.0, high * 1.04),
-            ticks: 8,
-        }
+        Axis::linear("coefficient of friction \u{3bc}", (0.0, high * 1.04), 8)
     }
 }
 
 /// Draws the ranges.
 pub fn presence_picture(title: &str, presence: &PresenceChart) -> Picture {
     let x = presence.axis();
-    let y = Axis {
-        label: "",
-        spread: Spread::Linear,
-        values: (0.0, 1.0),
-        ticks: 0,
-    };
+    let y = Axis::linear("", (0.0, 1.0), 0);
     let chart = Chart::new(AREA, &x, &y);
 
     let mut picture = Picture::new(title, WIDTH, AREA.bottom + 62.0);

@@ -37,12 +37,7 @@ pub fn profile_picture(title: &str, series: &[ProfileSeries]) -> Picture {
         values: (1.0, right),
         ticks: 9,
     };
-    let y = Axis {
-        label: "\u{3c1}(\u{3c4}): share of the cases",
-        spread: Spread::Linear,
-        values: (0.0, 1.02),
-        ticks: 6,
-    };
+    let y = Axis::linear("\u{3c1}(\u{3c4}): share of the cases", (0.0, 1.02), 6);
     let chart = Chart::new(AREA, &x, &y);
 
     let mut picture = Picture::new(title, WIDTH, height_with_keys(series.len()));

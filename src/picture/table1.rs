@@ -68,12 +68,7 @@ pub fn table1_picture() -> Picture {
 
 /// The chart of one sign pattern.
 fn panel(signs: (i8, i8), area: Rectangle) -> Element {
-    let x = Axis {
-        label: "\u{3c6} (degrees)",
-        spread: Spread::Linear,
-        values: (0.0, 90.0),
-        ticks: 9,
-    };
+    let x = Axis::linear("\u{3c6} (degrees)", (0.0, 90.0), 9);
     let y = Axis {
         label: "\u{3bc}",
         spread: Spread::Log,

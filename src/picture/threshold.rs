@@ -44,12 +44,7 @@ const FRICTION_DASH: &str = "8 4";
 /// Draws the thresholds, a column for each stretch with slip. `mu` is the friction of the path.
 pub fn threshold_picture(title: &str, columns: &[ThresholdColumn], mu: f64) -> Picture {
     let count = columns.len().max(1) as f64;
-    let x = Axis {
-        label: "",
-        spread: Spread::Linear,
-        values: (0.0, count),
-        ticks: 0,
-    };
+    let x = Axis::linear("", (0.0, count), 0);
     let y = mu_axis(columns, mu);
     let chart = Chart::new(AREA, &x, &y);
 
