@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::problem::Problem;
-use super::run::{Watched, watched_question};
+use super::run::{Watched, unless_cancelled, watched_question};
 use crate::say;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::Progress;
@@ -11,7 +11,6 @@ use mceip_model::reduction::reduce;
 use mceip_oracle::{Enumeration, ModeList, enumerate_modes_with, enumerate_with};
 use serde_json::Value;
 use std::fmt;
-use std::ops::ControlFlow;
 
 /// An enumeration; see [`Problem::enumerate`].
 pub struct Enumerate<'a> {
@@ -128,11 +127,7 @@ impl<'a> Enumerate<'a> {
         let watch = self.watched.watch();
         let step = |what: &str, done: u64, total: u64| {
             watch.report(&Progress::of(what, done as usize, total as usize));
-            if watch.is_cancelled() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            unless_cancelled(&watch)
         };
 
         let window = problem.window();

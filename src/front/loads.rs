@@ -3,7 +3,7 @@
 use super::complete::SolutionSet;
 use super::error::Error;
 use super::problem::Problem;
-use super::run::{Watched, watched_question};
+use super::run::{Watched, unless_cancelled, watched_question};
 use crate::say;
 use mceip_check::Proved;
 use mceip_check::certificate::{EquilibriumCertificate, SlipSign, StatedEquilibrium, StatedState};
@@ -15,7 +15,6 @@ use mceip_model::{ContactState, LoadedBody, Particle, Unknown, Window};
 use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, RateSolutions, Stretch};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -175,11 +174,7 @@ impl<'a> FollowPath<'a> {
             let step = names[at.step];
             let stage = format!("stretch {}: {step}, {amount:.4} of it", at.stretch);
             watch.report(&Progress::stage(&stage));
-            if watch.is_cancelled() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            unless_cancelled(&watch)
         })?;
 
         let mut pencils = contact.pencils();

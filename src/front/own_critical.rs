@@ -17,7 +17,7 @@
 
 use super::error::Error;
 use super::loads::{LoadPath, Loads, ProvedStates, certify_states};
-use super::run::{Watched, watched_question};
+use super::run::{Watched, unless_cancelled, watched_question};
 use crate::say::{self, number_text};
 use mceip_check::certificate::Certificate;
 use mceip_engine::analysis::{
@@ -30,7 +30,6 @@ use mceip_model::{ContactState, LoadedBody, ModelError, System};
 use mceip_path::{Equilibrium, LoadSteps, LoadingPath, LoadingPathEnd, Stretch};
 use num_traits::{One, Signed};
 use serde_json::Value;
-use std::ops::ControlFlow;
 
 /// The mu at which the own critical friction is looked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -581,13 +580,7 @@ impl<'a> FindOwnCritical<'a> {
         let amounts = self.load_path.as_path().steps.amounts.clone();
         let steps = LoadSteps::new(mu.clone(), amounts);
         let contact = self.load_path.contact();
-        let path = LoadingPath::follow(contact, &steps, &|_| {
-            if watch.is_cancelled() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })?;
+        let path = LoadingPath::follow(contact, &steps, &|_| unless_cancelled(watch))?;
         if path.end == LoadingPathEnd::Interrupted {
             return Ok(None);
         }

@@ -1,6 +1,7 @@
 //! The switch, the listener and the keeper that every question of the front door can be given.
 
 use mceip_engine::run::{Cancel, Keeper, Kept, OnProgress, OnProof, Progress, Watch};
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 /// How a question is watched while it is worked on.
@@ -36,6 +37,15 @@ impl<'a> Watched<'a> {
 
         let keeping = self.keeping.as_ref();
         watch.kept_by(keeping.map(|(every, keep)| Keeper::new(*every, keep.as_ref())))
+    }
+}
+
+/// Goes on as long as the work is not cancelled.
+pub(super) fn unless_cancelled(watch: &Watch<'_>) -> ControlFlow<()> {
+    if watch.is_cancelled() {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
     }
 }
 
