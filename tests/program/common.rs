@@ -7,6 +7,8 @@ use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Body, Problem};
 use mceip_oracle::TwoParticles;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 /// A file or folder of the repository.
@@ -26,6 +28,23 @@ pub(crate) fn example(name: &str) -> String {
 
 pub(crate) fn read(path: &str) -> String {
     std::fs::read_to_string(path).unwrap()
+}
+
+pub(crate) fn read_json(path: impl AsRef<Path>) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+/// The names of the files in a folder.
+pub(crate) fn names_in(folder: &str) -> BTreeSet<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect()
+}
+
+/// A decimal of a report as a number.
+pub(crate) fn decimal(value: &Value) -> f64 {
+    value.as_str().unwrap().parse().unwrap()
 }
 
 /// A run of the program that has ended.

@@ -6,7 +6,7 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{
-    example, exits, exits_with_json, problem_text, read, repository, run, started,
+    decimal, example, exits, exits_with_json, problem_text, read, repository, run, started,
 };
 #[cfg(unix)]
 use crate::interrupt::interrupt;
@@ -86,10 +86,6 @@ fn solutions_of(report: &Value) -> Vec<Listed> {
     list
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
-
 /// One writer of `mceip-solutions/1`: the search lists what the enumerator lists, digit by digit,
 /// with the enclosures it has proved.
 #[test]
@@ -109,9 +105,9 @@ fn complete_and_enumerate_write_the_same_solutions() {
                 assert_eq!(ours[field], theirs[field], "{name}: {field}");
             }
 
-            let lower = number(&ours["enclosure"][0]);
-            let upper = number(&ours["enclosure"][1]);
-            let value = number(&theirs["value"]);
+            let lower = decimal(&ours["enclosure"][0]);
+            let upper = decimal(&ours["enclosure"][1]);
+            let value = decimal(&theirs["value"]);
 
             assert!(lower <= value && value <= upper, "{name}");
         }

@@ -7,7 +7,7 @@
 //! enumerator refute it by their own means.
 #![cfg(feature = "cli")]
 
-use crate::common::{exits, exits_with_json, read, refused, repository, run_words};
+use crate::common::{decimal, exits, exits_with_json, read, refused, repository, run_words};
 use crate::program::Folder;
 use mceip_engine::foreign::{Effort, ForeignReport, ForeignVerdict, judge};
 use mceip_engine::run::Watch;
@@ -135,14 +135,10 @@ fn is_judged_correct(case: &Case, report: &str) {
     );
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
-
 /// Value and x of a solution, x three times as long.
 fn scaled(solution: &Value) -> Value {
     let x = solution["x"].as_array().unwrap();
-    let scaled: Vec<f64> = x.iter().map(|entry| 3.0 * number(entry)).collect();
+    let scaled: Vec<f64> = x.iter().map(|entry| 3.0 * decimal(entry)).collect();
     json!({ "value": solution["value"], "x": scaled })
 }
 
@@ -154,7 +150,7 @@ fn rounded(solution: &Value) -> Value {
 }
 
 fn six_digits(value: &Value) -> String {
-    format!("{:.5e}", number(value))
+    format!("{:.5e}", decimal(value))
 }
 
 /// The exact answer, the same with value and x alone, in reverse, twice and in another scale.
@@ -198,7 +194,7 @@ fn six_digits_are_enough_away_from_close_values() {
 
 /// A value moved by so much, relative to 1 + |value|.
 fn moved(solution: &Value, by: f64) -> Value {
-    let value = number(&solution["value"]);
+    let value = decimal(&solution["value"]);
     json!({ "value": value + by * (1.0 + value.abs()), "x": solution["x"] })
 }
 

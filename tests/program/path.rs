@@ -2,24 +2,13 @@
 //! are in `tests/transcripts`).
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, exits_with_json, refused, repository};
+use crate::common::{
+    decimal, example, exits, exits_with_json, names_in, read_json, refused, repository,
+};
 use crate::program::Folder;
 use mceip::FrictionGrid;
 use serde_json::{Value, json};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
-
-/// The names of the files in a folder.
-fn names(folder: &str) -> BTreeSet<String> {
-    let entries = std::fs::read_dir(folder).unwrap();
-    entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect()
-}
-
-fn read_json(path: &str) -> Value {
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 /// Files of an earlier path would be taken for states of this one; what has another name stays.
 #[test]
@@ -28,7 +17,7 @@ fn states_of_an_earlier_path_are_removed_and_nothing_else() {
     let folder = Folder::new();
     let states = folder.path("states");
     exits(0, &format!("path {loads} --states {states}"));
-    let first = names(&states);
+    let first = names_in(&states);
     assert!(!first.is_empty());
 
     for name in ["stretch-777.json", "stretch-x.json", "notes.txt"] {
@@ -38,7 +27,7 @@ fn states_of_an_earlier_path_are_removed_and_nothing_else() {
 
     let mut kept = first;
     kept.extend(["stretch-x.json", "notes.txt"].map(String::from));
-    assert_eq!(names(&states), kept);
+    assert_eq!(names_in(&states), kept);
 }
 
 /// A point between a floor and two oblique springs, K* = 2 - 3/2 mu where it slips along its
@@ -78,13 +67,13 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     let answer = exits_with_json(0, &command);
 
     let bracket = &answer["own_critical"]["bracket"];
-    let [lo, hi] = ["absent", "critical"].map(|k| number(&bracket[k]));
+    let [lo, hi] = ["absent", "critical"].map(|k| decimal(&bracket[k]));
     assert!(lo < 4.0 / 3.0 && 4.0 / 3.0 < hi, "{bracket}");
     assert!((hi - lo) / hi <= 1e-6, "{bracket}");
     // Nothing slips in the state it ends in: no certificate of divergence, and no frozen critical
     // friction.
     assert!(answer["own_critical"]["frozen"]["absent_below"].is_null());
-    let written = names(&proofs);
+    let written = names_in(&proofs);
     assert!(
         written
             .iter()
@@ -96,7 +85,7 @@ fn the_own_critical_friction_of_a_point_is_that_of_its_path() {
     for point in answer["own_critical"]["points"].as_array().unwrap() {
         let mu = point["mu"].as_str().unwrap();
         let alone = exits_with_json(0, &format!("path {file} --mu {mu} --json"));
-        if number(&point["mu"]) < 4.0 / 3.0 {
+        if decimal(&point["mu"]) < 4.0 / 3.0 {
             assert_eq!(point["states"], json!(["free"]));
         }
 
@@ -141,10 +130,6 @@ fn the_equilibrium_asked_about_is_that_at_the_very_end_of_the_loads() {
     assert_eq!(points[1]["states"], json!(["stick"]));
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
-
 /// Every answer with a certificate is accepted by `check` as it stands on the disk, and `analyze`
 /// says the same of the state that `path` finds at this mu alone.
 #[test]
@@ -162,10 +147,10 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
         json!({"absent": "1.78", "critical": "1.79"})
     );
     assert_eq!(own["found"], "between");
-    let frozen = number(&own["frozen"]["absent_below"]);
+    let frozen = decimal(&own["frozen"]["absent_below"]);
     assert!((frozen - 1.11803).abs() < 1e-4, "{frozen}");
 
-    let problems = names(&proofs);
+    let problems = names_in(&proofs);
     let of_frozen = problems.iter().filter(|name| name.starts_with("frozen-"));
     let of_frozen: Vec<&str> = of_frozen
         .filter_map(|name| name.strip_suffix(".problem.json"))
@@ -223,7 +208,7 @@ fn each_answer_of_the_own_critical_friction_stands_on_its_certificate() {
 
         let states = folder.path(&format!("states-{mu}"));
         exits(0, &format!("path {file} --mu {mu} --states {states}"));
-        let state = format!("{states}/{}", names(&states).pop_last().unwrap());
+        let state = format!("{states}/{}", names_in(&states).pop_last().unwrap());
         let analysis = exits_with_json(0, &format!("analyze {state} --samples 0 --json"));
         assert_eq!(analysis["divergence"]["verdict"], point["divergence"]);
     }
@@ -266,7 +251,7 @@ fn the_own_critical_friction_is_that_of_the_first_state_on_the_path_that_diverge
                 exits_with_json(0, &format!("analyze {states}/{name} --samples 0 --json"));
             analysis["divergence"]["verdict"] == "present"
         };
-        let written = names(&states);
+        let written = names_in(&states);
         let first = written.iter().find(diverges);
 
         // Several stretches with the same states are one question.
@@ -291,7 +276,7 @@ fn the_own_critical_friction_is_that_of_the_first_state_on_the_path_that_diverge
     }
     assert!(seen[0] >= 4 && seen[1] >= 4, "{seen:?}");
 
-    let of_1_12 = names(&proofs)
+    let of_1_12 = names_in(&proofs)
         .into_iter()
         .filter(|name| name.starts_with("mu-1.12"));
     let of_1_12: Vec<String> = of_1_12.collect();
@@ -441,7 +426,7 @@ fn the_body_under_load_is_written_for_paraview() {
     exits(0, &format!("path {file} --vtk {vtk}"));
     let json = exits_with_json(0, &format!("path {file} --json"));
 
-    let written = names(&vtk);
+    let written = names_in(&vtk);
     for name in ["body.vtu", "step-01.vtu", "step-02.vtu"] {
         assert!(written.contains(name), "{name} in {written:?}");
     }

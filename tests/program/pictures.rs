@@ -6,7 +6,7 @@
 //! fails.
 #![cfg(feature = "cli")]
 
-use crate::common::{exit_code, exits, exits_with_json, read, refused};
+use crate::common::{exit_code, exits, exits_with_json, names_in, read, refused};
 use crate::program::Folder;
 use mceip::picture::{
     BodyDrawing, BodyMode, BodyUnderLoad, Branches, ChartPoint, CostSeries, Mark, PathDrawing,
@@ -758,18 +758,6 @@ fn regions(tree: &Document<'_>, signs: &str) -> Vec<String> {
         .collect()
 }
 
-/// The names of the files of a folder, sorted.
-fn names(folder: &str) -> Vec<String> {
-    let mut names = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let name = entry.unwrap().file_name();
-        names.push(name.to_string_lossy().into_owned());
-    }
-
-    names.sort();
-    names
-}
-
 fn list<'a>(value: &'a Value, field: &str) -> &'a [Value] {
     value[field].as_array().unwrap()
 }
@@ -794,7 +782,7 @@ fn a_report_is_one_page_that_needs_nothing_else() {
     );
 
     assert_eq!(
-        names(&folder.path("")),
+        Vec::from_iter(names_in(&folder.path(""))),
         ["block.json", "out.html", "pictures"]
     );
 
@@ -823,7 +811,7 @@ fn a_report_is_one_page_that_needs_nothing_else() {
     let bodies = 3;
     assert_eq!(count_tags(&tree, "svg"), 3 + bodies + modes);
 
-    let files = names(&pictures);
+    let files = names_in(&pictures);
     let has_png = cfg!(feature = "png");
     let formats = if has_png { 2 } else { 1 };
 
@@ -950,7 +938,11 @@ fn refusals_leave_nothing_behind() {
         ),
     ] {
         refused(&command, &[word]);
-        assert_eq!(names(&the_folder), ["taken"], "{command}");
+        assert_eq!(
+            Vec::from_iter(names_in(&the_folder)),
+            ["taken"],
+            "{command}"
+        );
     }
 
     assert_eq!(read(&taken), "x");

@@ -5,7 +5,7 @@
 //! of damaged files go to both; a field that one of them forgets is accepted by one side alone.
 #![cfg(feature = "cli")]
 
-use crate::common::{example, exits, pencil_problem, run};
+use crate::common::{example, exits, pencil_problem, read_json, repository, run};
 use crate::corpus_reader::{Entry, MALFORMED, entries, entry};
 use crate::program::Folder;
 use jsonschema::Validator;
@@ -23,7 +23,7 @@ use std::fmt::{Debug, Display};
 use std::path::{Path, PathBuf};
 
 fn root(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+    repository(path).into()
 }
 
 fn schema(name: &str) -> Validator {
@@ -67,10 +67,6 @@ fn valid(validator: &Validator, value: &Value, what: &str) {
     assert!(errors.is_empty(), "{what}: {errors:?}");
 }
 
-fn read(path: &Path) -> Value {
-    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
-}
-
 /// The JSON files of a folder, by name.
 fn json_files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(root(folder)).unwrap();
@@ -91,7 +87,7 @@ fn every_schema_is_one() {
     assert!(list.len() >= 8);
 
     for path in list {
-        let schema = read(&path);
+        let schema = read_json(&path);
         let is_valid = jsonschema::meta::is_valid(&schema);
         assert!(is_valid, "{}", path.display());
     }
@@ -103,7 +99,7 @@ fn examples_and_written_files_are_valid() {
 
     for path in json_files("spec/examples") {
         let file = path.display().to_string();
-        let example = read(&path);
+        let example = read_json(&path);
 
         if example["format"] != "mceip-problem/1" {
             continue;
@@ -124,7 +120,7 @@ fn bodies_under_loads_are_valid() {
     let loads = schema("mceip-loads-1");
     let file = root("spec/examples/loads.json");
     let text = std::fs::read_to_string(&file).unwrap();
-    valid(&loads, &read(&file), "loads.json");
+    valid(&loads, &read_json(&file), "loads.json");
 
     for (from, to) in [
         ("loads/1", "loads/2"),
@@ -169,7 +165,7 @@ fn what_is_written_for_a_problem_is_valid(problem: &str) {
         let found = run(&format!("{what} --json --certificate {certificate}"));
         let found = serde_json::from_str(&found.stdout).unwrap();
         valid(&solutions, &found, &what);
-        valid(&certificates, &read(Path::new(&certificate)), &what);
+        valid(&certificates, &read_json(Path::new(&certificate)), &what);
     }
 }
 
@@ -207,7 +203,7 @@ fn traces_and_plain_problems_are_valid() {
     let solution = folder.path("z.json");
     exits(0, &format!("solve {problem} --certificate {solution}"));
 
-    let solution = read(Path::new(&solution));
+    let solution = read_json(Path::new(&solution));
     valid(
         &schema("mceip-mcp-solution-1"),
         &solution,
@@ -245,7 +241,7 @@ fn the_pack_is_valid() {
     let mut files = json_files("spec/conformance-pack");
     files.extend(json_files("spec/conformance-pack-2"));
     for path in files {
-        let file = read(&path);
+        let file = read_json(&path);
         if file["format"] == "mceip-pack-index/1" {
             valid(&index, &file, "index");
             continue;
@@ -274,7 +270,7 @@ fn runs_of_conform_are_valid() {
     let runs = schema("mceip-conform-1");
     for rival in ["semismooth-newton", "siconos"] {
         let path = root(&format!("spec/rivals/tier2-{rival}.json"));
-        valid(&runs, &read(&path), rival);
+        valid(&runs, &read_json(&path), rival);
     }
 
     let made = run("conform --only window_end --json -- true").stdout;
@@ -431,7 +427,7 @@ fn problem_with_all_forms() -> Value {
 
 /// The two particles with coordinates and warnings.
 fn problem_with_coordinates() -> Value {
-    let mut problem = read(&root("spec/examples/two-particles.json"));
+    let mut problem = read_json(&repository("spec/examples/two-particles.json"));
     problem["coordinates"] = json!({
         "nodes": [[0, 1, 0, "1/3"], [2, 3, "1e-3", 0], [null, null, 1, 1]],
         "edges": [[0, 1]],
@@ -448,10 +444,10 @@ fn the_reader_of_problems_and_the_schema_agree() {
     let market = json!({ "a": { "matrix_market": "a.mtx" }, "b": [[1]] });
     let market = serde_json::from_str(&pencil_problem("mu", market)).unwrap();
     let files = [
-        read(&root("spec/examples/two-particles.json")),
+        read_json(&repository("spec/examples/two-particles.json")),
         problem_with_coordinates(),
-        read(&root("spec/examples/oblique.json")),
-        read(&root("spec/examples/fold.json")),
+        read_json(&repository("spec/examples/oblique.json")),
+        read_json(&repository("spec/examples/fold.json")),
         problem_with_all_forms(),
         market,
     ];
@@ -654,7 +650,7 @@ fn damaged_certificates_agree(tally: &mut Tally) {
         &format!("complete {} --certificate {written}", example("fold")),
     );
 
-    let mut certificates = vec![read(Path::new(&written))];
+    let mut certificates = vec![read_json(Path::new(&written))];
     for name in [
         "one-support-cone",
         "one-support-alone-by-inequalities",
@@ -679,7 +675,11 @@ fn damaged_certificates_agree(tally: &mut Tally) {
 fn damaged_frictions_agree(tally: &mut Tally) {
     // That -1/2 is no integer follows from its meaning: a schema cannot divide.
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
-    let example = |name: &str| read(&root(&format!("spec/examples/certificates/{name}.json")));
+    let example = |name: &str| {
+        read_json(&repository(&format!(
+            "spec/examples/certificates/{name}.json"
+        )))
+    };
 
     let absences = ["critical", "critical-free"].map(example);
     tally.agree(&schema("mceip-critical-1"), &absences, |text| {
@@ -701,7 +701,7 @@ fn damaged_frictions_agree(tally: &mut Tally) {
 fn damaged_equilibria_agree(tally: &mut Tally) {
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
     let accepted = |name: &str| {
-        let file = read(&root(&format!(
+        let file = read_json(&root(&format!(
             "spec/corpus/accept/equilibrium-{name}.json"
         )));
         file["certificate"].clone()
@@ -721,7 +721,7 @@ fn the_readers_of_plain_problems_agree_with_the_schemas() {
     let mut tally = Tally::default();
 
     // Lengths that do not fit and crossed bounds are of the meaning.
-    let problem = read(&root("spec/examples/bounded-mcp.json"));
+    let problem = read_json(&repository("spec/examples/bounded-mcp.json"));
     tally.agree(&schema("mceip-mcp-1"), &[problem], |text| {
         taken_unless(read_mcp(text), |e| matches!(e, FileError::Mcp(_)))
     });
