@@ -8,7 +8,7 @@
 //! Filled in by `cone` and `range`; compared by `member`.
 
 use super::solution::Solution;
-use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
+use mceip_exact::{Algebraic, Poly, Rational, cleared, common_denominator};
 use std::cmp::Ordering;
 
 /// Solutions at one value that form a cone of dimension > 1: all sums of a nonnegative combination
@@ -190,9 +190,9 @@ pub struct Undescribed {
 }
 
 /// A rational vector as constant polynomials, up to a positive factor.
-pub(super) fn constants(x: &[Rational]) -> Vec<Poly> {
+pub fn constants(x: &[Rational]) -> Vec<Poly> {
     let clear = common_denominator(x);
     x.iter()
-        .map(|x_i| Poly::constant(x_i.numer() * (&clear / x_i.denom())))
+        .map(|x_i| Poly::constant(cleared(x_i, &clear)))
         .collect()
 }

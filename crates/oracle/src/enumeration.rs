@@ -55,6 +55,11 @@ impl Enumeration {
             && self.undescribed.is_empty()
     }
 
+    /// Is nothing listed?
+    pub fn is_empty(&self) -> bool {
+        self.solutions.is_empty() && self.cones.is_empty() && self.ranges.is_empty()
+    }
+
     /// Is the answer a plain list: nothing but `solutions`?
     pub fn is_plain_list(&self) -> bool {
         let has_families = !self.cones.is_empty() || !self.ranges.is_empty();

@@ -42,7 +42,7 @@ mod range;
 mod solution;
 mod table1;
 
-pub use degenerate::{Cone, End, SupportRange, Undescribed, ValueInterval};
+pub use degenerate::{Cone, End, SupportRange, Undescribed, ValueInterval, constants};
 pub use enumeration::{Enumeration, WideKernel};
 pub use integer_pencil::IntegerPencil;
 pub use member::{is_rational_solution, is_solution};
@@ -56,5 +56,5 @@ pub use plain::{
     examine_support,
 };
 pub use range::MAX_MINORS;
-pub use solution::Solution;
+pub use solution::{Solution, is_between};
 pub use table1::{ClosedSolution, TwoParticles, table1, thresholds};

@@ -12,7 +12,7 @@ use super::degenerate::{Cone, End, SupportRange, ValueInterval};
 use super::enumeration::Enumeration;
 use super::solution::Solution;
 use super::solution::equal_values;
-use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
+use mceip_exact::{Algebraic, Poly, Rational, Sign, cleared, common_denominator};
 use mceip_model::Pencil;
 
 /// Is (t, x) a solution: t >= 0, x != 0, y = (A + tB) x with y_f = 0 and 0 <= x_s _|_ y_s >= 0?
@@ -119,11 +119,6 @@ fn image(pencil: &Pencil, i: usize, x: &[Poly]) -> Poly {
     }
 
     sum
-}
-
-/// factor * number, an integer because the factor is a multiple of the denominator.
-fn cleared(number: &Rational, factor: &Integer) -> Integer {
-    number.numer() * (factor / number.denom())
 }
 
 impl Enumeration {

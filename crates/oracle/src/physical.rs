@@ -36,7 +36,7 @@
 //! Book: `spec/problem.md` (1.3) and `spec/zero-reaction.md`.
 
 use super::integer_pencil::IntegerPencil;
-use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, common_denominator, roots_in};
+use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, cleared, common_denominator, roots_in};
 use mceip_model::{ContactState, Direction, ModelError, Pencil, System, Unknown, Window};
 use num_traits::{One, Zero};
 
@@ -341,9 +341,8 @@ impl Form {
         let clear = common_denominator(self.constant.iter().chain(&self.slope));
         let mut sum = Poly::default();
         for ((constant, slope), v_i) in self.constant.iter().zip(&self.slope).zip(v) {
-            let constant = constant.numer() * (&clear / constant.denom());
-            let slope = slope.numer() * (&clear / slope.denom());
-            sum += &(&Poly::new(vec![constant, slope]) * v_i);
+            let entry = [constant, slope].map(|c| cleared(c, &clear));
+            sum += &(&Poly::new(entry.to_vec()) * v_i);
         }
 
         value.sign_of(&sum)

@@ -4,7 +4,7 @@
 //! number, the entries of x and y are integer polynomials to be evaluated at it; so every question
 //! about a solution is a sign of a polynomial at an algebraic number.
 
-use mceip_exact::{Algebraic, Poly, Sign, ratio_to_decimal, to_decimal};
+use mceip_exact::{Algebraic, Poly, Rational, Sign, ratio_to_decimal, to_decimal};
 
 /// One solution of (12)-(14) or (21)-(23), up to the positive factor that x and y share.
 ///
@@ -81,4 +81,10 @@ impl Solution {
 /// Are two numbers equal? The comparison refines copies, the numbers stay as they are.
 pub(super) fn equal_values(a: &Algebraic, b: &Algebraic) -> bool {
     a.clone().equals(&mut b.clone())
+}
+
+/// lo <= value <= hi? The comparison refines a copy, the number stays as it is.
+pub fn is_between(value: &Algebraic, lo: &Rational, hi: &Rational) -> bool {
+    let mut value = value.clone();
+    value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le()
 }

@@ -16,7 +16,7 @@
 use super::contact::{Contact, ContactSide, require_length};
 use super::error::PathError;
 use mceip_exact::{
-    Integer, Rational, Sparse, common_denominator, from_f64, schur_complement, to_f64,
+    Integer, Rational, Sparse, cleared, common_denominator, from_f64, schur_complement, to_f64,
 };
 use mceip_mcp::linear::{SymbolicAnalysis, Symmetric};
 use mceip_model::{Direction, ModelError, Particle, System};
@@ -124,7 +124,7 @@ fn content(load: &[Rational]) -> Rational {
     let denominator = common_denominator(load);
     let mut common = Integer::zero();
     for force in load {
-        common = common.gcd(&(force.numer() * (&denominator / force.denom())));
+        common = common.gcd(&(cleared(force, &denominator)));
     }
 
     if common.is_zero() {

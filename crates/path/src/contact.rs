@@ -17,7 +17,7 @@
 
 use super::error::PathError;
 use super::load_steps::require_positive;
-use mceip_exact::{Integer, Rational, common_denominator, to_f64};
+use mceip_exact::{Integer, Rational, cleared, common_denominator, to_f64};
 use mceip_model::{ContactState, ModelError};
 use num_traits::{One, Signed, Zero};
 
@@ -79,12 +79,8 @@ impl Contact {
         let denominator = common_denominator(rational.iter().flatten());
         let mut rows = Vec::with_capacity(rational.len());
         for row in &rational {
-            let numerators = row.iter();
-            rows.push(
-                numerators
-                    .map(|entry| entry.numer() * (&denominator / entry.denom()))
-                    .collect(),
-            );
+            let numerators = row.iter().map(|entry| cleared(entry, &denominator));
+            rows.push(numerators.collect());
         }
 
         Ok(Contact {

@@ -12,7 +12,7 @@
 
 use super::contact::{Contact, FrictionCoefficients, Load, NodalValues, Response};
 use super::error::LawFailure;
-use mceip_exact::{Integer, Rational, common_denominator, to_f64};
+use mceip_exact::{Integer, Rational, cleared, common_denominator, to_f64};
 use mceip_model::ContactState;
 use num_traits::{One, Signed, Zero};
 use std::cmp::Ordering;
@@ -98,7 +98,7 @@ impl EquilibriumLine {
         let mut r = Affine::zeros(contact.rows().len());
         for (k, applied) in loads.iter().enumerate() {
             let (grows, factor) = match &applied.amount {
-                Amount::Fixed(amount) => (false, amount.numer() * (&clear / amount.denom())),
+                Amount::Fixed(amount) => (false, cleared(amount, &clear)),
                 Amount::Growing => (true, clear.clone()),
             };
             w.add(grows, &factor, &response.w[k]);
@@ -117,7 +117,7 @@ impl EquilibriumLine {
         let denominator = common_denominator(contact.gaps());
         let mut w = Affine::zeros(contact.columns());
         for (node, gap) in contact.gaps().iter().enumerate() {
-            w.constant[2 * node + 1] = -(gap.numer() * (&denominator / gap.denom()));
+            w.constant[2 * node + 1] = -cleared(gap, &denominator);
         }
         w.constant[contact.component(Load::Gaps)] = denominator.clone();
 

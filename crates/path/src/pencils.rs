@@ -10,7 +10,7 @@
 use super::contact::{Contact, Load};
 use super::error::PathError;
 use super::linear::{ContactEquations, Displacements, Images, no_reaction};
-use mceip_exact::{Integer, Rational, Sparse, common_denominator};
+use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
 use mceip_model::{ContactState, ModelError, Pencil};
 use num_integer::Integer as _;
 use num_traits::Zero;
@@ -94,7 +94,7 @@ impl Pencils<'_> {
         let order = moved.slip.len();
         let mut matrix = Vec::with_capacity(order);
         for (i, mu) in coefficients.iter().enumerate() {
-            let mu = mu.numer() * (&denominator / mu.denom());
+            let mu = cleared(mu, &denominator);
             let mut row = Vec::with_capacity(order);
             for j in 0..order {
                 let [tangential, normal] = moved.entry(i, j);

@@ -9,9 +9,9 @@ use crate::compare::{InstanceReport, Treatment, compare_with, engines, observed}
 use crate::disagreement::Disagreement;
 use crate::families::Corner;
 use mceip_engine::multistart::Search;
-use mceip_exact::{Algebraic, Poly, Rational, cleared, common_denominator};
+use mceip_exact::{Algebraic, Rational};
 use mceip_model::{Pencil, Reduced, Window};
-use mceip_oracle::Enumeration;
+use mceip_oracle::{Enumeration, constants};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What every engine is held against.
@@ -134,16 +134,9 @@ fn contradicted(case: &CampaignCase, truth: &Truth) -> Vec<String> {
 
 /// Does the enumerator's answer hold the solution with this value and x?
 fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
-    let denominator = common_denominator(x);
-    let mut integral_x = Vec::new();
-    for v in x {
-        integral_x.push(Poly::constant(cleared(v, &denominator)));
-    }
-
     let value = Algebraic::rational(value.clone());
-    truth
-        .enumeration
-        .contains(&truth.reduced.pencil, &value, &integral_x)
+    let pencil = &truth.reduced.pencil;
+    truth.enumeration.contains(pencil, &value, &constants(x))
 }
 
 /// All engines of the project, capped so that an instance takes seconds at most.
