@@ -5,12 +5,12 @@
 //! exact enumerator.
 #![cfg(feature = "testkit")]
 
-use crate::cover::{disagreements, proved, truth};
+use crate::cover::{disagreements, proved};
 use mceip_check::certificate::{Certificate, Node, Piece, RootOutcome};
 use mceip_check::{CoverFault, Reason, audit, check};
 use mceip_model::reduction::reduce;
 use mceip_model::{Problem, Unknown};
-use mceip_testkit::{degenerate, known, mechanical_pencil};
+use mceip_testkit::{degenerate, enumerated, known, mechanical_pencil};
 
 fn pieces(certificate: &mut Certificate) -> &mut Vec<Piece> {
     &mut certificate.complete_set.as_mut().unwrap().pieces
@@ -122,7 +122,7 @@ fn other_claims(certificate: &Certificate, own: usize) -> Vec<usize> {
 fn is_refused_for_claim(problem: &Problem, forged: &Certificate, claim: usize) -> bool {
     match check(problem, forged) {
         Ok(accepted) => {
-            let wrong = disagreements(&accepted.cover.unwrap(), &truth(problem));
+            let wrong = disagreements(&accepted.cover.unwrap(), &enumerated(problem));
             assert_eq!(wrong, [""; 0], "{}", problem.canonical_text());
             false
         }

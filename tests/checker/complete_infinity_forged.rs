@@ -6,7 +6,7 @@
 //! that is not there. A forgery of each obligation is a file of `spec/corpus`.
 #![cfg(feature = "testkit")]
 
-use crate::cover::{family_disagreements, truth};
+use crate::cover::family_disagreements;
 use crate::two_checkers::{falsehoods, nodes};
 use mceip_check::certificate::{Anchor, Certificate};
 use mceip_check::check;
@@ -14,6 +14,7 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::rational;
 use mceip_model::{Body, Problem, Unknown, Window};
+use mceip_testkit::enumerated;
 use mceip_testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -99,7 +100,7 @@ fn judge_mutants(problem: &Problem, rng: &mut ChaCha8Rng, judged: &mut Judged) {
         judged.accepted += 1;
         let mut wrong = falsehoods(problem, &mutant, &accepted);
         let in_window = problem.clone().with_window(mutant.window.clone());
-        if !truth(&in_window).is_plain_list() {
+        if !enumerated(&in_window).is_plain_list() {
             wrong.extend(family_disagreements(&in_window, &accepted.cover.unwrap()));
         }
         assert!(wrong.is_empty(), "{wrong:?}: {}", mutant.to_json());

@@ -13,16 +13,15 @@ use mceip_check::certificate::{
 use mceip_check::check;
 use mceip_engine::certify::{certificate, flattened, lifted, propose};
 use mceip_exact::{
-    Algebraic, Integer, Interval, Poly, Rational, Sign, common_denominator, roots_in,
+    Algebraic, Integer, Interval, Poly, Sign, cleared, common_denominator, roots_in,
 };
 use mceip_model::file::{Number, read_problem};
 use mceip_model::reduction::{lift, reduce};
 use mceip_model::{Body, Problem, Reduced};
-use mceip_oracle::{Enumeration, enumerate, is_solution};
+use mceip_oracle::{Enumeration, enumerate, is_between, is_solution};
 use mceip_testkit::{degenerate, in_doubles, mechanical, random_pencils};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -120,11 +119,6 @@ impl Subject {
     }
 }
 
-fn is_between(value: &Algebraic, lo: &Rational, hi: &Rational) -> bool {
-    let mut value = value.clone();
-    value.cmp_rational(lo) != Ordering::Less && value.cmp_rational(hi) != Ordering::Greater
-}
-
 /// Is `ours` at the value the same as `theirs` times the scale?
 fn agree(value: &mut Algebraic, ours: &[Poly], scale: &Integer, theirs: &[Vec<Number>]) -> bool {
     let cleared = clearing_factor(theirs);
@@ -158,7 +152,7 @@ fn polynomials(list: &[Vec<Number>]) -> Vec<Poly> {
     let mut polynomials = Vec::new();
     for polynomial in list {
         let numbers = polynomial.iter().map(|number| &number.0);
-        let coefficients = numbers.map(|number| number.numer() * (&clear / number.denom()));
+        let coefficients = numbers.map(|number| cleared(number, &clear));
         polynomials.push(Poly::new(coefficients.collect()));
     }
     polynomials

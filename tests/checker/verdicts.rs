@@ -107,7 +107,9 @@ fn critical_lines(name: &str, problem: &Problem, certificate: &CriticalCertifica
                 format!("from {from} ")
             };
             let of = members(is_of_every_member);
-            vec![format!("absence {above}below {below}, leaves: {leaves}{of}")]
+            vec![format!(
+                "absence {above}below {below}, leaves: {leaves}{of}"
+            )]
         }
         (Err(rejected), Ok(list)) => {
             vec![

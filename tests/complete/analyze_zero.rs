@@ -15,8 +15,9 @@ use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::reduction::reduce_system;
 use mceip_model::{System, Unknown, Window};
-use mceip_oracle::{Solution, enumerate_modes};
-use mceip_testkit::generators::{rng, states};
+use mceip_oracle::{Solution, enumerate_modes, is_between};
+use mceip_testkit::generators::states;
+use mceip_testkit::{at_friction, at_lambda2};
 
 /// Number of this family of random systems.
 const FAMILY: u64 = 95;
@@ -55,15 +56,12 @@ struct Met {
 }
 
 fn random_system(index: u64) -> System {
-    states::system_with_zero(&mut rng(FAMILY, index), 2, 3).unwrap()
+    states::system_with_zero(FAMILY, index, 2, 3).unwrap()
 }
 
 /// All solutions at a friction; `None` where the list is degenerate.
-fn at_friction(system: &System, mu: &Rational) -> Option<Vec<Solution>> {
-    let particles = system.particles().to_vec();
-    let stiffness = system.stiffness().clone();
-    let mass = system.mass().cloned();
-    let system = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
+fn listed_at(system: &System, mu: &Rational) -> Option<Vec<Solution>> {
+    let system = at_friction(system, mu).unwrap();
     let split = reduce_system(&system, Unknown::Lambda2).unwrap();
 
     let all = enumerate_modes(&split, &Window::all());
@@ -72,17 +70,14 @@ fn at_friction(system: &System, mu: &Rational) -> Option<Vec<Solution>> {
 
 /// Is there a solution at this lambda^2 with a friction in the enclosure?
 fn is_in_the_list(system: &System, solution: &CertifiedSolution) -> bool {
-    let particles = system.particles().to_vec();
-    let mass = system.mass().unwrap();
-    let stiffness = system.stiffness().add_scaled(solution.lambda2.lo(), mass);
-    let shifted = System::new(stiffness, None, None, particles).unwrap();
+    let shifted = at_lambda2(system, solution.lambda2.lo()).unwrap();
     let split = reduce_system(&shifted, Unknown::Mu).unwrap();
 
     let all = enumerate_modes(&split, &Window::all());
-    all.solutions.iter().any(|one| {
-        let mut mu = one.value.clone();
-        mu.cmp_rational(solution.mu.lo()).is_ge() && mu.cmp_rational(solution.mu.hi()).is_le()
-    })
+    let [lo, hi] = [solution.mu.lo(), solution.mu.hi()];
+    all.solutions
+        .iter()
+        .any(|one| is_between(&one.value, lo, hi))
 }
 
 /// Every certificate of the answer is accepted once more, from its text.
@@ -123,7 +118,7 @@ fn compare(index: u64, met: &mut Met) {
     assert_proofs(index, &analysis);
 
     // Divergence at the friction of the file: the same number of modes.
-    let Some(at_own) = at_friction(&system, &friction) else {
+    let Some(at_own) = listed_at(&system, &friction) else {
         met.degenerate += 1;
         return;
     };
@@ -145,7 +140,7 @@ fn compare(index: u64, met: &mut Met) {
             continue;
         }
 
-        let all = at_friction(&system, &mu).unwrap_or_default();
+        let all = listed_at(&system, &mu).unwrap_or_default();
         assert!(all.is_empty(), "system {index}, mu = {mu}: {all:?}");
         met.frictions += 1;
     }
@@ -168,7 +163,7 @@ fn compare(index: u64, met: &mut Met) {
 fn has_a_mode(system: &System) -> bool {
     (-2..7).any(|power| {
         let mu = whole(2).pow(power);
-        at_friction(system, &mu).is_some_and(|all| !all.is_empty())
+        listed_at(system, &mu).is_some_and(|all| !all.is_empty())
     })
 }
 

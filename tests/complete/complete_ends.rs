@@ -5,12 +5,13 @@
 //! planted at 3/7. A certificate to resume with must be of the same problem and window.
 #![cfg(feature = "testkit")]
 
-use crate::cover::{disagreements, truth};
+use crate::cover::disagreements;
 use mceip_check::certificate::Certificate;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, Completed, complete, resume};
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_testkit::enumerated;
 use num_traits::Signed;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -37,7 +38,7 @@ fn count_of_solutions(problem: &Problem) -> usize {
     let found = search(problem);
     assert!(found.is_complete(), "{:?}", found.cover.open);
 
-    let wrong = disagreements(&found.cover, &truth(problem));
+    let wrong = disagreements(&found.cover, &enumerated(problem));
     assert!(wrong.is_empty(), "{wrong:?}");
     found.cover.solutions.len()
 }

@@ -6,7 +6,7 @@
 //! `MCEIP_DISAGREEMENTS=FILE` what disagrees is appended to a file.
 #![cfg(feature = "testkit")]
 
-use crate::cover::{disagreements, family_disagreements, truth};
+use crate::cover::{disagreements, family_disagreements};
 use mceip_check::OpenRegion;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
@@ -16,8 +16,8 @@ use mceip_oracle::enumerate;
 use mceip_testkit::generators::raw::{digits, doubled, elements, graph, zeros};
 use mceip_testkit::generators::window;
 use mceip_testkit::{
-    Instance, compare_complete, degenerate, known, mechanical, mechanical_pencil, random_pencils,
-    table1_grid,
+    Instance, compare_complete, degenerate, enumerated, known, mechanical, mechanical_pencil,
+    random_pencils, table1_grid,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -207,7 +207,7 @@ impl Case {
     }
 
     fn compare(&self, found: &Completed) -> Outcome {
-        let truth = truth(&self.problem);
+        let truth = enumerated(&self.problem);
         let is_plain_list = truth.is_plain_list();
 
         let mut wrong = disagreements(&found.cover, &truth);
@@ -486,7 +486,7 @@ fn an_irrational_double_root_is_isolated() {
 
     assert!(found.is_complete());
     assert!(!found.cover.solutions.is_empty());
-    let mut wrong = disagreements(&found.cover, &truth(&problem));
+    let mut wrong = disagreements(&found.cover, &enumerated(&problem));
     wrong.extend(family_disagreements(&problem, &found.cover));
     assert_eq!(wrong, [""; 0]);
 }
@@ -566,7 +566,7 @@ fn searches_that_keep_games_agree_with_enumeration() {
         let [inner, outer] = [inner, outer]
             .map(|pencil| Problem::new(Body::Pencil(pencil), unknown, Window::all()).unwrap());
 
-        let truth = truth(&inner);
+        let truth = enumerated(&inner);
         let found = complete(&outer, &CompleteOptions::default(), &Watch::nobody()).unwrap();
 
         assert!(found.is_complete(), "{k}");

@@ -6,12 +6,13 @@
 //! --release --test complete -- --ignored --nocapture complete_tail::`.
 #![cfg(feature = "testkit")]
 
-use crate::cover::{disagreements, family_disagreements, truth};
+use crate::cover::{disagreements, family_disagreements};
 use mceip_check::certificate::{CompleteSet, Node, RootOutcome};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
 use mceip_exact::{Sparse, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_testkit::enumerated;
 use mceip_testkit::generators::sparse;
 use mceip_testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
@@ -88,7 +89,7 @@ fn has_roots_in_last_piece(set: &CompleteSet) -> bool {
 
 /// The cover lists what the enumerator lists, and holds the families of solutions.
 fn assert_agrees_with_enumerator(k: usize, problem: &Problem, found: &Completed) {
-    let truth = truth(problem);
+    let truth = enumerated(problem);
     let wrong = disagreements(&found.cover, &truth);
     let text = problem.canonical_text();
     assert!(wrong.is_empty(), "{k}: {wrong:?} {text}");

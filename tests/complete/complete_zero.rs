@@ -13,7 +13,7 @@ use mceip_model::reduction::reduce_system;
 use mceip_model::{Body, Problem, Window};
 use mceip_oracle::{Enumeration, enumerate_modes};
 use mceip_testkit::generators::states::ZeroModes;
-use mceip_testkit::generators::{rng, states, unknown};
+use mceip_testkit::generators::{states, unknown};
 use mceip_testkit::system_of;
 
 /// Number of this family of random systems.
@@ -39,7 +39,7 @@ struct Met {
 }
 
 fn random_problem(index: u64) -> Problem {
-    let system = states::system_with_zero(&mut rng(FAMILY, index), 2, 3).unwrap();
+    let system = states::system_with_zero(FAMILY, index, 2, 3).unwrap();
     Problem::new(Body::System(system), unknown(index), Window::all()).unwrap()
 }
 

@@ -6,25 +6,20 @@
 //! Answers are compared exactly, and near misses must differ.
 #![cfg(feature = "testkit")]
 
-use crate::small::cleared;
 use mceip_exact::{Algebraic, Integer, Poly, Rational, parse, rational, whole};
 use mceip_model::reduction::reduce;
-use mceip_model::{Admissible, Body, Pencil, Problem};
-use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
+use mceip_model::{Admissible, Body, Pencil};
+use mceip_oracle::{Solution, constants, is_rational_solution};
+use mceip_testkit::enumerated;
 use mceip_testkit::known::{Known, complete_graph, cycle, diagonal, jordan, path, star, z_matrix};
 use mceip_testkit::pareto::{Pareto, pareto_matrices, planted};
 use std::f64::consts::PI;
-
-fn solve(problem: &Problem) -> Enumeration {
-    let pencil = reduce(problem).unwrap().pencil;
-    enumerate(&pencil, problem.window()).unwrap()
-}
 
 /// The enumerator lists what is known, and nothing else.
 fn assert_known(known: &Known) {
     let name = &known.name;
     let expected = &known.expected;
-    let found = solve(&known.problem);
+    let found = enumerated(&known.problem);
 
     assert!(found.is_complete_list(), "{name}");
     assert!(found.ranges.is_empty(), "{name}");
@@ -149,7 +144,7 @@ fn near_misses_are_different_answers() {
     let mut with_a_wider_cone = right.clone();
     with_a_wider_cone.cones[0].biactive.push(4);
 
-    let found = solve(&path.problem);
+    let found = enumerated(&path.problem);
     assert_ne!(found, bent);
     assert_ne!(found, without_a_solution);
     assert_ne!(found, without_a_cone);
@@ -181,7 +176,7 @@ fn assert_published_count(pareto: &Pareto) {
     let a = rational(7, 2);
     let c = pareto.bound();
 
-    let own = solve(&pareto.pencil().unwrap());
+    let own = enumerated(&pareto.pencil().unwrap());
     assert!(own.is_plain_list());
     assert_eq!(own.solutions.len(), pareto.count);
 
@@ -189,7 +184,7 @@ fn assert_published_count(pareto: &Pareto) {
     assert!(matches!(system.body(), Body::System(_)));
     let pencil = reduce(&system).unwrap().pencil;
     assert!(Admissible::new(&pencil, system.unknown()).is_ok());
-    let mechanical = solve(&system);
+    let mechanical = enumerated(&system);
     assert_eq!(mechanical.solutions.len(), pareto.count);
 
     // t and mu are increasing in lambda: both lists are in one order.
@@ -220,9 +215,9 @@ fn planted_solutions_are_found() {
         let solves = is_rational_solution(&pencil, &planted.value, &planted.x);
         assert!(solves, "seed {seed}");
 
-        let found = solve(&planted.problem);
+        let found = enumerated(&planted.problem);
 
-        let x = cleared(&planted.x);
+        let x = constants(&planted.x);
         let value = Algebraic::rational(planted.value.clone());
         assert!(found.contains(&pencil, &value, &x), "seed {seed}");
 

@@ -7,7 +7,7 @@
 use mceip_exact::{Sparse, rational, whole};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
-use mceip_oracle::{Enumeration, Solution, enumerate};
+use mceip_oracle::{Enumeration, Solution, enumerate, is_between};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -201,9 +201,7 @@ proptest! {
 
         let mut expected = Vec::new();
         for solution in whole.solutions.iter().filter(|s| !is_in_range(s)) {
-            let mut value = solution.value.clone();
-            let is_in_window = value.cmp_rational(&min).is_ge() && value.cmp_rational(&max).is_le();
-            if is_in_window {
+            if is_between(&solution.value, &min, &max) {
                 expected.push(value_and_support(solution));
             }
         }

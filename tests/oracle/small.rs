@@ -1,8 +1,6 @@
 //! Small pencils and vectors of integers, for pencils that are worked by hand.
 
 use mceip_exact::{Algebraic, Poly, Sparse, whole};
-#[cfg(feature = "testkit")]
-use mceip_exact::{Rational, common_denominator};
 use mceip_model::Pencil;
 
 pub(crate) fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
@@ -22,12 +20,4 @@ pub(crate) fn integer(value: i64) -> Algebraic {
 
 pub(crate) fn constants(values: &[i64]) -> Vec<Poly> {
     values.iter().map(|c| Poly::from_ints(&[*c])).collect()
-}
-
-/// The vector times its common denominator, as constant polynomials.
-#[cfg(feature = "testkit")]
-pub(crate) fn cleared(x: &[Rational]) -> Vec<Poly> {
-    let denominator = common_denominator(x);
-    let clear = |value: &Rational| Poly::constant(value.numer() * (&denominator / value.denom()));
-    x.iter().map(clear).collect()
 }

@@ -8,20 +8,13 @@
 use mceip_check::check_stability;
 use mceip_engine::analysis::stable_until;
 use mceip_engine::run::Watch;
-use mceip_exact::{Rational, rational, to_f64};
-use mceip_model::reduction::reduce;
+use mceip_exact::{rational, to_f64};
 use mceip_model::{Body, Problem, System, Unknown, Window};
-use mceip_oracle::{Enumeration, enumerate};
-use mceip_testkit::{Corner, mechanical, system_of};
+use mceip_oracle::Enumeration;
+use mceip_testkit::{Corner, at_friction, mechanical, solutions_of, system_of};
 
 fn solve(system: System, unknown: Unknown) -> Enumeration {
-    let problem = Problem::new(Body::System(system), unknown, Window::all()).unwrap();
-    enumerate(&reduce(&problem).unwrap().pencil, &Window::all()).unwrap()
-}
-
-fn at(system: &System, mu: &Rational) -> System {
-    let states: Vec<_> = system.particles().iter().map(|p| p.state).collect();
-    system.with_states(&states, Some(mu.clone())).unwrap()
+    solutions_of(system, unknown, &Window::all())
 }
 
 #[derive(Debug, Default)]
@@ -54,7 +47,7 @@ fn nothing_diverges_where_stability_is_proved() {
         counts.coupled += usize::from(instance.corners.contains(&Corner::CoupledMass));
         counts.free += usize::from(!system.free_dofs().is_empty());
         for mu in [to.clone(), to * rational(1, 3)] {
-            let found = solve(at(system, &mu), Unknown::Lambda2);
+            let found = solve(at_friction(system, &mu).unwrap(), Unknown::Lambda2);
             assert!(
                 found.solutions.is_empty() && found.cones.is_empty(),
                 "{label} at {mu}"
@@ -62,7 +55,7 @@ fn nothing_diverges_where_stability_is_proved() {
         }
 
         // A certificate that reaches beyond a solution is refused.
-        let thresholds = solve(at(system, to), Unknown::Mu);
+        let thresholds = solve(at_friction(system, to).unwrap(), Unknown::Mu);
         let smallest = thresholds
             .solutions
             .iter()
@@ -93,6 +86,6 @@ fn nothing_diverges_where_stability_is_proved() {
 
 /// MCEIP-lambda2, to which certificates belong, whatever its mu.
 fn problem_of(system: &System) -> Problem {
-    let system = at(system, &rational(1, 1));
+    let system = at_friction(system, &rational(1, 1)).unwrap();
     Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
 }

@@ -8,19 +8,16 @@
 
 use mceip_engine::multistart::Search;
 use mceip_exact::{Poly, Quadratic, Rational, Sign, Sparse, rational, whole};
-use mceip_model::reduction::reduce;
-use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip_oracle::{Enumeration, Solution, TwoParticles, enumerate, table1, thresholds};
+use mceip_model::{ContactState, Particle, System, Unknown, Window};
+use mceip_oracle::{Enumeration, Solution, TwoParticles, table1, thresholds};
 use mceip_paper::{pythagorean_angles, two_particles};
-use mceip_testkit::{compare, table1_grid};
+use mceip_testkit::{compare, solutions_of, table1_grid};
 
 const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 
 /// All solutions of the system for this unknown.
-fn solutions_of(system: System, unknown: Unknown) -> Enumeration {
-    let problem = Problem::new(Body::System(system), unknown, Window::all()).unwrap();
-    let pencil = reduce(&problem).unwrap().pencil;
-    enumerate(&pencil, problem.window()).unwrap()
+fn all_solutions(system: System, unknown: Unknown) -> Enumeration {
+    solutions_of(system, unknown, &Window::all())
 }
 
 /// Every seventh instance of the grid; `mceip verify` and tests/campaign/verify.rs run all of it.
@@ -62,7 +59,7 @@ fn thresholds_are_the_values_of_mceip_mu() {
                 mu: whole(1),
                 signs,
             };
-            let found = solutions_of(two_particles(&data).unwrap(), Unknown::Mu);
+            let found = all_solutions(two_particles(&data).unwrap(), Unknown::Mu);
             let closed_form = thresholds(&data);
 
             if c == whole(0) {
@@ -108,7 +105,7 @@ fn steep_slope(mu: Rational) -> TwoParticles {
 fn count_of_solutions_at_zero(mu: Rational) -> usize {
     let data = steep_slope(mu);
     let closed_form = table1(&data);
-    let mut found = solutions_of(two_particles(&data).unwrap(), Unknown::Lambda2).solutions;
+    let mut found = all_solutions(two_particles(&data).unwrap(), Unknown::Lambda2).solutions;
 
     assert_eq!(found.len(), closed_form.len());
     let identity = Poly::from_ints(&[0, 1]);
@@ -140,7 +137,7 @@ struct Row {
 
 fn rows_of(system: System) -> Vec<Row> {
     let mut rows = Vec::new();
-    for solution in solutions_of(system, Unknown::Lambda2).solutions {
+    for solution in all_solutions(system, Unknown::Lambda2).solutions {
         rows.push(Row {
             value: solution.decimal(17),
             slip: solution.slip.clone(),

@@ -19,10 +19,9 @@ use crate::program::Folder;
 use mceip::picture::{Branches, ChartPoint, Picture, branch_picture};
 use mceip_exact::{Rational, from_f64, rational, to_f64, whole};
 use mceip_model::file::read_problem_file;
-use mceip_model::reduction::reduce;
-use mceip_model::{Body, Problem, System, Unknown, Window};
-use mceip_oracle::{Enumeration, enumerate};
-use mceip_testkit::system_of;
+use mceip_model::{System, Unknown, Window};
+use mceip_oracle::Enumeration;
+use mceip_testkit::{at_lambda2, solutions_of, system_of};
 use std::path::Path;
 
 const PAGE: &str = "spec/fold.md";
@@ -95,13 +94,7 @@ fn the_figure_is_the_closed_form() {
 
 /// The MCEIP-mu of a system at a fixed lambda^2, by the enumerator.
 pub(crate) fn enumerate_at(system: &System, lambda2: &Rational, window: &Window) -> Enumeration {
-    let mass = system.mass().unwrap();
-    let stiffness = system.stiffness().add_scaled(lambda2, mass);
-    let particles = system.particles().to_vec();
-    let at_lambda2 = System::new(stiffness, None, None, particles).unwrap();
-    let problem = Problem::new(Body::System(at_lambda2), Unknown::Mu, Window::all()).unwrap();
-
-    enumerate(&reduce(&problem).unwrap().pencil, window).unwrap()
+    solutions_of(at_lambda2(system, lambda2).unwrap(), Unknown::Mu, window)
 }
 
 /// MCEIP-mu of K + lambda^2 M: two solutions from lambda^2 = 2 on, none below.

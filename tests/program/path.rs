@@ -465,7 +465,7 @@ fn the_body_under_load_is_written_for_paraview() {
 fn the_body_that_decides_on_the_own_critical_friction_is_written() {
     let folder = Folder::new();
     let vtk = folder.path("vtk");
-    let mut loads = read_json(&example("own-critical"));
+    let mut loads = read_json(example("own-critical"));
     let plain = folder.write("plain.json", &loads.to_string());
     loads["coordinates"] = json!({ "nodes": [[0, 1, 0, 0], [2, 3, 1, 0]] });
     let placed = folder.write("placed.json", &loads.to_string());

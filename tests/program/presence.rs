@@ -18,11 +18,11 @@ use mceip_engine::analysis::{
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, rational, to_f64, whole};
 use mceip_model::file::Number;
-use mceip_model::reduction::reduce;
-use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
-use mceip_oracle::{enumerate, table1};
+use mceip_model::{ContactState, Problem, System, Unknown, Window};
+use mceip_oracle::table1;
 use mceip_paper::two_particles;
 use mceip_testkit::generators::{rng, states};
+use mceip_testkit::{at_friction, solutions_of};
 use num_traits::Zero as _;
 use rand::RngExt;
 use serde_json::json;
@@ -173,13 +173,9 @@ struct Met {
 
 /// Has MCEIP-lambda2 a solution at this mu? By the enumerator.
 fn is_present(system: &System, mu: &Rational) -> bool {
-    let particles = system.particles().to_vec();
-    let stiffness = system.stiffness().clone();
-    let mass = system.mass().cloned();
-    let system = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
-    let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap();
-    let all = enumerate(&reduce(&problem).unwrap().pencil, &Window::all()).unwrap();
-    !(all.solutions.is_empty() && all.cones.is_empty() && all.ranges.is_empty())
+    let system = at_friction(system, mu).unwrap();
+    let all = solutions_of(system, Unknown::Lambda2, &Window::all());
+    !all.is_empty()
 }
 
 fn random_system(index: u64) -> System {

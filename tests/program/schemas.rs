@@ -427,7 +427,7 @@ fn problem_with_all_forms() -> Value {
 
 /// The two particles with coordinates and warnings.
 fn problem_with_coordinates() -> Value {
-    let mut problem = read_json(&repository("spec/examples/two-particles.json"));
+    let mut problem = read_json(repository("spec/examples/two-particles.json"));
     problem["coordinates"] = json!({
         "nodes": [[0, 1, 0, "1/3"], [2, 3, "1e-3", 0], [null, null, 1, 1]],
         "edges": [[0, 1]],
@@ -444,10 +444,10 @@ fn the_reader_of_problems_and_the_schema_agree() {
     let market = json!({ "a": { "matrix_market": "a.mtx" }, "b": [[1]] });
     let market = serde_json::from_str(&pencil_problem("mu", market)).unwrap();
     let files = [
-        read_json(&repository("spec/examples/two-particles.json")),
+        read_json(repository("spec/examples/two-particles.json")),
         problem_with_coordinates(),
-        read_json(&repository("spec/examples/oblique.json")),
-        read_json(&repository("spec/examples/fold.json")),
+        read_json(repository("spec/examples/oblique.json")),
+        read_json(repository("spec/examples/fold.json")),
         problem_with_all_forms(),
         market,
     ];
@@ -676,7 +676,7 @@ fn damaged_frictions_agree(tally: &mut Tally) {
     // That -1/2 is no integer follows from its meaning: a schema cannot divide.
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
     let example = |name: &str| {
-        read_json(&repository(&format!(
+        read_json(repository(&format!(
             "spec/examples/certificates/{name}.json"
         )))
     };
@@ -701,7 +701,7 @@ fn damaged_frictions_agree(tally: &mut Tally) {
 fn damaged_equilibria_agree(tally: &mut Tally) {
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
     let accepted = |name: &str| {
-        let file = read_json(&root(&format!(
+        let file = read_json(root(&format!(
             "spec/corpus/accept/equilibrium-{name}.json"
         )));
         file["certificate"].clone()
@@ -721,7 +721,7 @@ fn the_readers_of_plain_problems_agree_with_the_schemas() {
     let mut tally = Tally::default();
 
     // Lengths that do not fit and crossed bounds are of the meaning.
-    let problem = read_json(&repository("spec/examples/bounded-mcp.json"));
+    let problem = read_json(repository("spec/examples/bounded-mcp.json"));
     tally.agree(&schema("mceip-mcp-1"), &[problem], |text| {
         taken_unless(read_mcp(text), |e| matches!(e, FileError::Mcp(_)))
     });

@@ -18,7 +18,7 @@ use mceip_engine::run::Watch;
 use mceip_mcp::mcp::Mcp;
 use mceip_model::reduction::{reduce, reduce_system};
 use mceip_model::{Admissible, Body, ContactState, Problem, Reduced, Window};
-use mceip_oracle::{Solution, enumerate_modes};
+use mceip_oracle::{Solution, enumerate_modes, is_between};
 use mceip_testkit::floors::{Coverage, Starts, floor, shortfalls};
 use mceip_testkit::generators::states::ZeroModes;
 use mceip_testkit::generators::{rng, states, unknown};
@@ -53,7 +53,7 @@ struct Met {
 }
 
 fn random_problem(index: u64) -> Problem {
-    let system = states::system_with_zero(&mut rng(FAMILY, index), 3, 2).unwrap();
+    let system = states::system_with_zero(FAMILY, index, 3, 2).unwrap();
     Problem::new(Body::System(system), unknown(index), Window::all()).unwrap()
 }
 
@@ -128,10 +128,8 @@ fn large_problem(index: u64) -> Problem {
 fn is_in(claim: &EnclosedSolution, solution: &Solution) -> bool {
     let center = &claim.center.last().unwrap().0;
     let radius = &claim.radius.last().unwrap().0;
-    let mut value = solution.value.clone();
-    let is_above = value.cmp_rational(&(center - radius)).is_ge();
-    let is_below = value.cmp_rational(&(center + radius)).is_le();
-    solution.slip == claim.support && is_above && is_below
+    let is_in = is_between(&solution.value, &(center - radius), &(center + radius));
+    solution.slip == claim.support && is_in
 }
 
 /// With more than 16 active variables claims are boxes. Each is that of one solution of the list,

@@ -14,17 +14,9 @@ use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Algebraic, Interval, Rational, Sparse, whole};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
-use mceip_oracle::{
-    End, Enumeration, Solution, SupportRange, ValueInterval, enumerate, examine_support,
-};
-use mceip_testkit::random_pencils;
+use mceip_oracle::{End, Enumeration, SupportRange, ValueInterval, examine_support, is_between};
+use mceip_testkit::{enumerated, is_claimed, random_pencils};
 use std::cmp::Ordering;
-
-/// What the enumerator finds in the window of a problem.
-pub fn truth(problem: &Problem) -> Enumeration {
-    let pencil = reduce(problem).unwrap().pencil;
-    enumerate(&pencil, problem.window()).unwrap()
-}
 
 /// What a cover says that is not so; empty where it is right. Everything the enumerator lists is in
 /// the cover's list or in an open region, and the cover lists nothing else.
@@ -45,7 +37,7 @@ pub fn disagreements(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> 
 fn listed_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
     let mut wrong = Vec::new();
     for listed in &cover.solutions {
-        let isolated = truth.solutions.iter().filter(|t| is_same(t, listed));
+        let isolated = truth.solutions.iter().filter(|t| is_claimed(t, listed));
         let matches = isolated.count() + usize::from(is_last_of_range(truth, listed));
 
         if matches != 1 {
@@ -62,7 +54,7 @@ fn listed_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
 fn solutions_not_listed_once(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
     let mut wrong = Vec::new();
     for solution in &truth.solutions {
-        let matches = cover.solutions.iter().filter(|s| is_same(solution, s));
+        let matches = cover.solutions.iter().filter(|s| is_claimed(solution, s));
         let listed = matches.count();
         let is_lost = listed == 0 && !is_open(cover, &solution.slip, &solution.value);
 
@@ -310,15 +302,9 @@ fn is_point_at(family: &SolutionFamily, end: &End) -> bool {
     family.is_point && end.included && within(&end.value, &family.from)
 }
 
-fn is_same(solution: &Solution, listed: &AcceptedClaim) -> bool {
-    solution.slip == listed.support && within(&solution.value, &listed.value)
-}
-
 /// Does the interval hold the value? Its ends belong to it.
 pub fn within(value: &Algebraic, interval: &Interval) -> bool {
-    let mut value = value.clone();
-    value.cmp_rational(interval.lo()) != Ordering::Less
-        && value.cmp_rational(interval.hi()) != Ordering::Greater
+    is_between(value, interval.lo(), interval.hi())
 }
 
 /// Is the solution in an open region: value in its interval, support between its moving set and
@@ -374,7 +360,7 @@ fn is_fit_to_condense(problem: &Problem) -> bool {
     problem.unknown() == Unknown::Mu
         && pencil.free().len() >= 2
         && pencil.slip().len() >= 3
-        && !truth(problem).solutions.is_empty()
+        && !enumerated(problem).solutions.is_empty()
 }
 
 /// lambda^2 = 2 and 3 on one support.

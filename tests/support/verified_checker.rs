@@ -10,9 +10,10 @@ use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::file::read_problem_file;
 use mceip_model::reduction::reduce;
-use mceip_model::{Body, Particle, Pencil, Problem, Reduced, System, Unknown, Window};
+use mceip_model::{Body, Pencil, Problem, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
+use mceip_testkit::{at_friction, at_lambda2, holds_claim};
 use num_traits::Signed;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -205,10 +206,7 @@ fn wrong_range(certificate: &str, names: [&str; 2], range: &Interval) -> Option<
 
 /// Is there a solution at a value of mu? `None` where the enumerator leaves it open.
 fn has_solution_at(system: &System, mu: &Rational) -> Option<bool> {
-    let stiffness = system.stiffness().clone();
-    let mass = system.mass().cloned();
-    let particles = without_reactions(system);
-    let at_mu = System::new(stiffness, mass, Some(mu.clone()), particles).unwrap();
+    let at_mu = at_friction(system, mu).unwrap();
     has_solution(at_mu, Unknown::Lambda2, Window::all())
 }
 
@@ -234,15 +232,14 @@ fn absence_falsehoods(
     let Body::System(system) = problem.body() else {
         return vec!["about a pencil".into()];
     };
-    let Some(mass) = system.mass() else {
+    if system.mass().is_none() {
         return vec!["about a system without mass".into()];
-    };
+    }
 
     let mut wrong = Vec::new();
     for (numerator, denominator) in LEVELS {
         let level = rational(numerator, denominator);
-        let stiffness = system.stiffness().add_scaled(&level, mass);
-        let at_level = System::new(stiffness, None, None, without_reactions(system)).unwrap();
+        let at_level = at_lambda2(system, &level).unwrap();
         let window = Window::new(range.lo().clone(), Some(range.hi().clone())).unwrap();
         if has_solution(at_level, Unknown::Mu, window) == Some(true) {
             wrong.push(format!("there is a solution at lambda^2 = {level}"));
@@ -277,24 +274,13 @@ fn presence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) -
     wrong
 }
 
-/// The particles without their reactions, which belong to one value of mu.
-fn without_reactions(system: &System) -> Vec<Particle> {
-    let mut particles = system.particles().to_vec();
-    for particle in &mut particles {
-        particle.reaction = None;
-    }
-    particles
-}
-
 /// Is there a solution? `None` where the enumerator of modes leaves something undescribed.
 fn has_solution(system: System, unknown: Unknown, window: Window) -> Option<bool> {
     let problem = Problem::new(Body::System(system), unknown, window.clone()).unwrap();
     let reduced = reduce(&problem).unwrap();
     if reduced.zero.is_empty() {
         let found = enumerate(&reduced.pencil, &window).unwrap();
-        let is_empty =
-            found.solutions.is_empty() && found.cones.is_empty() && found.ranges.is_empty();
-        return Some(!is_empty);
+        return Some(!found.is_empty());
     }
 
     let found = enumerate_modes(&reduced, &window);
@@ -428,7 +414,7 @@ impl Statement {
         }
 
         for claim in &self.claims {
-            if !is_solution(truth, claim) {
+            if !holds_claim(truth, claim) {
                 wrong.push(format!("there is no solution {claim:?}"));
             }
         }
@@ -605,25 +591,6 @@ fn indices(text: &str) -> Option<Vec<usize>> {
 
 fn number(text: &str) -> Option<Rational> {
     parse(text).ok()
-}
-
-/// Is the claim a solution of the list, of a cone or of a range?
-pub fn is_solution(truth: &Enumeration, claim: &AcceptedClaim) -> bool {
-    for solution in &truth.solutions {
-        if solution.slip == claim.support && crate::cover::within(&solution.value, &claim.value) {
-            return true;
-        }
-    }
-
-    for cone in &truth.cones {
-        let is_face = claim.support.iter().all(|i| cone.slip.contains(i));
-        if is_face && crate::cover::within(&cone.value, &claim.value) {
-            return true;
-        }
-    }
-
-    let mut ranges = truth.ranges.iter();
-    ranges.any(|range| range.support == claim.support)
 }
 
 /// Sentences as the program prints them, beside some that are none.

@@ -10,7 +10,7 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteError, CompleteOptions, Completed, complete};
 use mceip_exact::Algebraic;
 use mceip_model::Problem;
-use mceip_oracle::{Cone, Enumeration, Solution, SupportRange, ValueInterval};
+use mceip_oracle::{Cone, Enumeration, Solution, SupportRange, ValueInterval, is_between};
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
@@ -55,7 +55,7 @@ pub(super) fn compare_within(
     let cover = &completed.cover;
     let mut is_found = vec![false; oracle.solutions.len()];
     for claim in &cover.solutions {
-        match oracle.solutions.iter().position(|o| is_same(o, claim)) {
+        match oracle.solutions.iter().position(|o| is_claimed(o, claim)) {
             Some(k) if !is_found[k] => is_found[k] = true,
             // Solutions inside a cone or a continuum are not in the list one by one.
             _ if !oracle.is_plain_list() => {}
@@ -98,7 +98,7 @@ fn holds_all_families(cover: &AcceptedCover, oracle: &Enumeration) -> bool {
 fn is_described(family: &SolutionFamily, oracle: &Enumeration) -> bool {
     let in_cone = |cone: &Cone| {
         let is_face = family.support.iter().all(|i| cone.slip.contains(i));
-        is_face && is_between(&cone.value, family)
+        is_face && lies_in(&cone.value, family)
     };
     let in_range = |range: &SupportRange| {
         let is_face = family.support.iter().all(|i| range.support.contains(i));
@@ -111,11 +111,11 @@ fn is_described(family: &SolutionFamily, oracle: &Enumeration) -> bool {
 }
 
 /// Does the value lie between the outer ends of the family's values?
-fn is_between(value: &Algebraic, family: &SolutionFamily) -> bool {
-    let mut value = value.clone();
-    let is_above = value.cmp_rational(family.from.lo()).is_ge();
-    let to = family.to.as_ref();
-    is_above && to.is_none_or(|to| value.cmp_rational(to.hi()).is_le())
+fn lies_in(value: &Algebraic, family: &SolutionFamily) -> bool {
+    match &family.to {
+        Some(to) => is_between(value, family.from.lo(), to.hi()),
+        None => value.clone().cmp_rational(family.from.lo()).is_ge(),
+    }
 }
 
 /// Does the piece meet the family's values?
@@ -131,13 +131,21 @@ fn meets(piece: &ValueInterval, family: &SolutionFamily) -> bool {
     is_below && is_above
 }
 
-/// Same support, and the oracle's value lies in the accepted interval.
-fn is_same(oracle: &Solution, accepted: &AcceptedClaim) -> bool {
-    if oracle.slip != accepted.support {
-        return false;
-    }
+/// Same support, and the enumerator's value lies in the accepted interval.
+pub fn is_claimed(solution: &Solution, claim: &AcceptedClaim) -> bool {
+    solution.slip == claim.support
+        && is_between(&solution.value, claim.value.lo(), claim.value.hi())
+}
 
-    let mut value = oracle.value.clone();
-    value.cmp_rational(accepted.value.lo()).is_ge()
-        && value.cmp_rational(accepted.value.hi()).is_le()
+/// Does the enumerator's answer hold a solution with this support and a value in this interval:
+/// one of its list, of a cone, or of a range?
+pub fn holds_claim(oracle: &Enumeration, claim: &AcceptedClaim) -> bool {
+    let in_a_cone = |cone: &Cone| {
+        let is_on_a_face = claim.support.iter().all(|i| cone.slip.contains(i));
+        is_on_a_face && is_between(&cone.value, claim.value.lo(), claim.value.hi())
+    };
+
+    oracle.solutions.iter().any(|s| is_claimed(s, claim))
+        || oracle.cones.iter().any(in_a_cone)
+        || oracle.ranges.iter().any(|r| r.support == claim.support)
 }

@@ -5,7 +5,7 @@
 //! GG' + I with small integers G, so that all hypotheses of Propositions 1 and 2 hold. Called by
 //! `verify`, by the campaign, by the conformance pack and by many tests.
 
-use crate::generators::{gram, sparse, unknown};
+use crate::generators::{gram, sparse, states, unknown};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
     Body, ContactState, ModelError, Particle, Pencil, Problem, System, Unknown, Window,
@@ -73,11 +73,12 @@ impl Instance {
 /// # Errors
 /// [`ModelError`]; none for the data as given.
 pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
+    let plain = [rational(1, 2), whole(2), whole(5), whole(20)];
     let mut out = Vec::new();
     for (c, s) in pythagorean_angles() {
         for (k, m) in [(whole(1), whole(1)), (rational(7, 3), rational(5, 2))] {
-            for friction in frictions(&c, &s) {
-                for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
+            for friction in frictions(&plain, &c, &s) {
+                for signs in SIGNS {
                     let data = TwoParticles {
                         c: c.clone(),
                         s: s.clone(),
@@ -86,7 +87,7 @@ pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
                         mu: friction.mu.clone(),
                         signs,
                     };
-                    out.push(table1_instance(data, friction.is_threshold)?);
+                    out.push(table1_instance(data, friction.place)?);
                 }
             }
         }
@@ -95,7 +96,7 @@ pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
 }
 
 /// The two particles with these data. The rational thresholds are those of S = (+1, -1).
-fn table1_instance(data: TwoParticles, is_threshold: bool) -> Result<Instance, ModelError> {
+fn table1_instance(data: TwoParticles, place: Option<Corner>) -> Result<Instance, ModelError> {
     let TwoParticles {
         c,
         s,
@@ -107,7 +108,7 @@ fn table1_instance(data: TwoParticles, is_threshold: bool) -> Result<Instance, M
     let label = format!("table1 c={c} s={s} k={k} m={m} mu={mu} S={signs:?}");
 
     let mut corners = Vec::new();
-    if is_threshold && data.signs == (1, -1) {
+    if place == Some(Corner::Threshold) && data.signs == (1, -1) {
         corners.push(Corner::Threshold);
     }
 
@@ -120,26 +121,18 @@ fn table1_instance(data: TwoParticles, is_threshold: bool) -> Result<Instance, M
     })
 }
 
-/// A coefficient of friction of the grid.
-struct GridFriction {
-    mu: Rational,
-    /// Is it exactly on a rational threshold of Table 1?
-    is_threshold: bool,
+/// A coefficient of friction of the two particles at an angle.
+pub(crate) struct AngleFriction {
+    pub(crate) mu: Rational,
+    /// On or near a rational threshold of S = (+1, -1), or neither.
+    pub(crate) place: Option<Corner>,
 }
 
-impl GridFriction {
-    fn plain(mu: Rational) -> GridFriction {
-        GridFriction {
-            mu,
-            is_threshold: false,
-        }
-    }
-}
-
-/// Coefficients of friction for one angle.
-fn frictions(c: &Rational, s: &Rational) -> Vec<GridFriction> {
-    let plain = [rational(1, 2), whole(2), whole(5), whole(20)];
-    let mut list: Vec<GridFriction> = plain.map(GridFriction::plain).into_iter().collect();
+/// Coefficients of friction for one angle: these, and the two rational thresholds of (+1, -1) with
+/// their neighbours at a distance of 10^-9.
+pub(crate) fn frictions(plain: &[Rational], c: &Rational, s: &Rational) -> Vec<AngleFriction> {
+    let at = |mu: Rational, place| AngleFriction { mu, place };
+    let mut list: Vec<AngleFriction> = plain.iter().map(|mu| at(mu.clone(), None)).collect();
 
     let cs = c * s;
     if cs.is_zero() {
@@ -147,17 +140,18 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<GridFriction> {
     }
 
     let tiny = rational(1, 1_000_000_000);
+    let near = Some(Corner::NearThreshold);
     for top in [c * c + Rational::one(), c * c + whole(2)] {
         let threshold = top / &cs;
-        list.push(GridFriction::plain(&threshold - &tiny));
-        list.push(GridFriction {
-            mu: threshold.clone(),
-            is_threshold: true,
-        });
-        list.push(GridFriction::plain(threshold + &tiny));
+        list.push(at(&threshold - &tiny, near));
+        list.push(at(threshold.clone(), Some(Corner::Threshold)));
+        list.push(at(threshold + &tiny, near));
     }
     list
 }
+
+/// The sign patterns S of the two particles.
+pub(crate) const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 
 /// Random admissible pencils in the manner of finite elements: K0 = GG' + I, M = HH' + I, K1
 /// arbitrary with zero f rows, small integers; n_s from 1 to 6, n_f from 0 to 3, both unknowns.
@@ -291,17 +285,7 @@ pub(crate) fn system_of_size(
         particles.push(random_particle(rng, index, corners));
     }
 
-    let is_lumped = rng.random_range(0..2) == 0;
-    let mass = if is_lumped {
-        Sparse::zeros(n, n).add_scaled(&whole(2), &Sparse::identity(n))
-    } else {
-        corners.push(Corner::CoupledMass);
-        sparse(&gram(rng, n, 1))
-    };
-
-    let friction = rational(rng.random_range(4..=60), 4);
-    let stiffness = sparse(&gram(rng, n, 1));
-    System::new(stiffness, Some(mass), Some(friction), particles)
+    states::of_particles(rng, n, particles, (2, 4..=60), corners)
 }
 
 /// The first particle always slips, so that there is a problem.
@@ -313,23 +297,15 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
         _ => ContactState::Slip { sign },
     };
 
-    let mut particle = Particle::plain(2 * index, 2 * index + 1, state);
-    particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+    let plain = Particle::plain(2 * index, 2 * index + 1, state);
+    states::turned(rng, plain, |_| three_four_five(), corners)
+}
 
-    if rng.random_range(0..3) == 0 {
-        let c = rational(3, 5);
-        let s = rational(4, 5);
-        particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
-        corners.push(Corner::Oblique);
-    }
-
-    match state {
-        ContactState::Stick => corners.push(Corner::Stick),
-        ContactState::Free => corners.push(Corner::FreeVariables),
-        ContactState::Slip { .. } | ContactState::Zero => {}
-    }
-
-    particle
+/// A rotation by the angle of the Pythagorean triple 3, 4, 5.
+fn three_four_five() -> [[Rational; 2]; 2] {
+    let c = rational(3, 5);
+    let s = rational(4, 5);
+    [[c.clone(), s.clone()], [-s, c]]
 }
 
 /// Problems built to sit in a degenerate corner.

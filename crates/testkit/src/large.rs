@@ -5,9 +5,10 @@
 //! are taken as exact numbers.
 
 use crate::error::TestkitError;
+use crate::generators::matrix;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{CompleteOptions, complete};
-use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, whole};
+use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use mceip_paper::{Block, BlockModel};
@@ -155,15 +156,7 @@ fn square(n: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Vec<Vec<f64>>
 
 /// Every finite double is a rational number; those that are not finite (none here) would be zero.
 fn exact(m: &[Vec<f64>]) -> Sparse {
-    let n = m.len();
-    let mut entries = Vec::new();
-    for i in 0..n {
-        for j in 0..n {
-            let value = from_f64(m[i][j]).unwrap_or_else(|_| whole(0));
-            entries.push((i, j, value));
-        }
-    }
-    Sparse::from_entries(n, n, entries)
+    matrix(m.len(), |i, j| from_f64(m[i][j]).unwrap_or_default())
 }
 
 /// GG'/n + I/2, G standard normal.

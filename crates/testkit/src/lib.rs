@@ -22,6 +22,7 @@
 #[macro_use]
 mod worded;
 
+mod asked;
 mod block;
 pub mod campaign;
 mod compare;
@@ -42,12 +43,13 @@ pub mod targets;
 pub mod verified;
 mod verify;
 
+pub use asked::{at_friction, at_lambda2, enumerated, solutions_of};
 pub use block::{AcceptedState, BLOCK_STARTS, BlockReport, block_state};
 pub use compare::{
     InstanceReport, Reached, SearchFunction, Treatment, compare, compare_by, coverage_of,
     in_doubles,
 };
-pub use completed::compare_complete;
+pub use completed::{compare_complete, holds_claim, is_claimed};
 pub use disagreement::Disagreement;
 pub use error::TestkitError;
 pub use families::{

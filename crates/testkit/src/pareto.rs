@@ -6,6 +6,7 @@
 //! solution t = lambda + shift of a raw pencil, and a solution mu = a / (c - lambda) of a
 //! mechanical system. Called by the campaign, the conformance pack and tests.
 
+use crate::generators::sparse;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
     Body, ContactState, ModelError, Particle, Pencil, Problem, System, Unknown, Window,
@@ -215,6 +216,5 @@ fn definite_block(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Sparse {
         rows[i][i] = 4 * n as i64 + 1;
     }
 
-    let rows: Vec<&[i64]> = rows.iter().map(|r| &r[..]).collect();
-    Sparse::from_ints(&rows)
+    sparse(&rows)
 }

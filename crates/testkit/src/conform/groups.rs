@@ -7,7 +7,8 @@
 use super::case::{Draft, Group};
 use super::flag::Flag;
 use crate::error::TestkitError;
-use crate::families::{I2, I3, Instance, SmallRows, mechanical, random_pencils, small_problem};
+use crate::families::{AngleFriction, Corner, I2, I3, Instance, SIGNS, SmallRows};
+use crate::families::{frictions, mechanical, random_pencils, small_problem};
 use crate::{known, pareto};
 use mceip_engine::reduction::condense;
 use mceip_exact::{Rational, Sparse, rational, whole};
@@ -15,7 +16,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Admissible, Body, ModelError, Pencil, Problem, Unknown, Window};
 use mceip_oracle::TwoParticles;
 use mceip_paper::{Block, BlockModel, pythagorean_angles, two_particles};
-use num_traits::{One, Zero};
+use num_traits::One;
 
 /// Seed of the random groups of the pack.
 const SEED: u64 = 20_260_101;
@@ -119,22 +120,24 @@ fn random(name: &str, comment: &str, list: Vec<Instance>) -> Group {
     group(name, comment, drafts)
 }
 
-/// The sign patterns S of the two particles.
-const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
-
 /// MCEIP-lambda2 of Fig. 1: every sign pattern at four angles; frictions below, on and above each
 /// rational threshold, and well away from them.
 fn table1() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
     let angles = pythagorean_angles();
     let chosen = [&angles[0], &angles[2], &angles[6], &angles[7]];
+    let plain = [rational(1, 2), whole(5), whole(20)];
 
     for (number, (c, s)) in chosen.into_iter().enumerate() {
         let has_units = number % 2 == 0;
         let k = if has_units { whole(1) } else { rational(7, 3) };
         let m = if has_units { whole(1) } else { rational(5, 2) };
 
-        for (mu, place) in frictions(c, s) {
+        for AngleFriction { mu, place } in frictions(&plain, c, s) {
+            let flag = place.map(|corner| match corner {
+                Corner::Threshold => Flag::Threshold,
+                _ => Flag::NearThreshold,
+            });
             for signs in SIGNS {
                 let data = TwoParticles {
                     c: c.clone(),
@@ -146,11 +149,7 @@ fn table1() -> Result<Group, ModelError> {
                 };
 
                 // The thresholds are those of S = (+1, -1).
-                let flags: Vec<Flag> = if signs == (1, -1) {
-                    place.into_iter().collect()
-                } else {
-                    Vec::new()
-                };
+                let flags: Vec<Flag> = flag.filter(|_| signs == (1, -1)).into_iter().collect();
 
                 drafts.push(draft(
                     format!("table1-{:03}", drafts.len()),
@@ -173,27 +172,6 @@ fn table1() -> Result<Group, ModelError> {
 fn of_two_particles(data: &TwoParticles, unknown: Unknown) -> Result<Problem, ModelError> {
     let system = two_particles(data)?;
     Problem::new(Body::System(system), unknown, Window::all())
-}
-
-/// Frictions for one angle: plain ones, and the two rational thresholds of (+1, -1) with their
-/// neighbours.
-fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
-    let mut list = vec![(rational(1, 2), None), (whole(5), None), (whole(20), None)];
-
-    let cs = c * s;
-    if cs.is_zero() {
-        return list;
-    }
-
-    let tiny = rational(1, 1_000_000_000);
-    let near = Some(Flag::NearThreshold);
-    for top in [c * c + Rational::one(), c * c + whole(2)] {
-        let threshold = top / &cs;
-        list.push((&threshold - &tiny, near));
-        list.push((threshold.clone(), Some(Flag::Threshold)));
-        list.push((threshold + &tiny, near));
-    }
-    list
 }
 
 /// MCEIP-mu of Fig. 1.

@@ -28,7 +28,7 @@ use mceip_engine::foreign::{
 use mceip_engine::multistart::{exact_value, integer_x, same, support};
 use mceip_engine::tolerance::VALUE_RADIUS;
 use mceip_exact::{Algebraic, Poly, Rational, from_f64, nearest_decimal, to_decimal};
-use mceip_oracle::{End, Enumeration, Solution, SupportRange};
+use mceip_oracle::{End, Enumeration, Solution, SupportRange, is_between};
 use num_traits::{One, Signed};
 
 worded! {
@@ -413,12 +413,6 @@ fn first_unmet(is_met: &[bool]) -> Option<usize> {
 fn decimal(value: &Algebraic) -> String {
     let identity = Poly::from_ints(&[0, 1]);
     to_decimal(&mut value.clone(), &identity, 9)
-}
-
-/// lo <= value <= hi?
-fn is_between(value: &Algebraic, lo: &Rational, hi: &Rational) -> bool {
-    let mut value = value.clone();
-    value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le()
 }
 
 /// The same number of intervals, ends within the radius of values, closed where both say so.

@@ -10,6 +10,7 @@ use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{ContactState, ModelError, Particle, Reduced, System};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use std::ops::RangeInclusive;
 
 /// The states of one particle.
 const STATES: [ContactState; 4] = [
@@ -72,17 +73,19 @@ fn mixture_with_zero(rng: &mut ChaCha8Rng, most_slip: usize, rarity: u32) -> Vec
     states
 }
 
-/// A random system of `mixture_with_zero`.
+/// A random system of `mixture_with_zero`, of a family of random problems that only tests have.
 ///
 /// # Errors
 /// [`ModelError`]; none.
 pub fn system_with_zero(
-    rng: &mut ChaCha8Rng,
+    family: u64,
+    index: u64,
     most_slip: usize,
     rarity: u32,
 ) -> Result<System, ModelError> {
-    let states = mixture_with_zero(rng, most_slip, rarity);
-    system(rng, &states, &mut Vec::new())
+    let mut rng = super::rng(family, index);
+    let states = mixture_with_zero(&mut rng, most_slip, rarity);
+    system(&mut rng, &states, &mut Vec::new())
 }
 
 /// How often particles with zero reaction do each thing that they can.
@@ -143,24 +146,41 @@ pub fn system(
     let mut particles = Vec::new();
     for (k, &state) in states.iter().enumerate() {
         let plain = Particle::plain(dofs[2 * k], dofs[2 * k + 1], state);
-        particles.push(turned(rng, plain, corners));
+        particles.push(turned(rng, plain, rotation, corners));
     }
 
+    of_particles(rng, n, particles, (3, 1..=80), corners)
+}
+
+/// A random system of n degrees of freedom with these particles: K = GG' + I, M another one or
+/// `lumped` I, mu one of `quarters`.
+pub(crate) fn of_particles(
+    rng: &mut ChaCha8Rng,
+    n: usize,
+    particles: Vec<Particle>,
+    (lumped, quarters): (i64, RangeInclusive<i64>),
+    corners: &mut Vec<Corner>,
+) -> Result<System, ModelError> {
     let is_lumped = rng.random_range(0..2) == 0;
     let mass = if is_lumped {
-        Sparse::zeros(n, n).add_scaled(&whole(3), &Sparse::identity(n))
+        Sparse::zeros(n, n).add_scaled(&whole(lumped), &Sparse::identity(n))
     } else {
         corners.push(Corner::CoupledMass);
         sparse(&gram(rng, n, 1))
     };
 
-    let friction = rational(rng.random_range(1..=80), 4);
+    let friction = rational(rng.random_range(quarters), 4);
     let stiffness = sparse(&gram(rng, n, 1));
     System::new(stiffness, Some(mass), Some(friction), particles)
 }
 
 /// The particle with a random normal direction and, one time in three, a rotated frame.
-fn turned(rng: &mut ChaCha8Rng, mut particle: Particle, corners: &mut Vec<Corner>) -> Particle {
+pub(crate) fn turned(
+    rng: &mut ChaCha8Rng,
+    mut particle: Particle,
+    rotation: fn(&mut ChaCha8Rng) -> [[Rational; 2]; 2],
+    corners: &mut Vec<Corner>,
+) -> Particle {
     particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
     if rng.random_range(0..3) == 0 {
         particle.frame = Some(rotation(rng));

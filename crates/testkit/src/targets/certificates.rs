@@ -4,20 +4,21 @@
 //! enumerator knows the whole answer; whatever the checker accepts must be in it. Called by the
 //! fuzz targets `certificate_reader`, `hostile_report` and `problem_reader`.
 
+use crate::asked::enumerated;
 use crate::compare::in_doubles;
+use crate::completed::{holds_claim, is_claimed};
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, check};
+use mceip_check::{Accepted, AcceptedCover, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::foreign::{BadPoint, ForeignReport, Reported};
 use mceip_engine::multistart::support;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, complete};
-use mceip_exact::{Algebraic, Sparse, from_f64};
+use mceip_exact::{Sparse, from_f64};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem, Reduced, Unknown, Window};
-use mceip_oracle::{Cone, Enumeration, Solution, enumerate};
-use std::cmp::Ordering;
+use mceip_oracle::{Enumeration, enumerate};
 
 /// Certificate reader and checker on any text: what is read round-trips; bound to one of a few
 /// fixed problems, what the checker accepts is in the enumerator's list, and a complete set is the
@@ -186,24 +187,13 @@ fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Result<Pencil, ModelErr
     Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())
 }
 
-/// The enumerator's answer to a fixed problem in this window.
-fn answer(problem: &Problem) -> Enumeration {
-    let Ok(reduced) = reduce(problem).and_then(Reduced::without_zero) else {
-        panic!("a fixed problem is refused")
-    };
-    let Ok(answer) = enumerate(&reduced.pencil, problem.window()) else {
-        panic!("a fixed problem is refused")
-    };
-    answer
-}
-
 /// Everything accepted is in the enumerator's answer, and a set without open regions is all of it.
 fn assert_true(problem: &Problem, accepted: &Accepted) {
-    let oracle = answer(problem);
+    let oracle = enumerated(problem);
     let of_the_cover = accepted.cover.iter().flat_map(|c| &c.solutions);
     for claim in accepted.claims.iter().chain(of_the_cover) {
         assert!(
-            is_listed(&oracle, claim),
+            holds_claim(&oracle, claim),
             "accepted, but not a solution: {claim:?}"
         );
     }
@@ -224,7 +214,7 @@ fn assert_complete(oracle: &Enumeration, cover: &AcceptedCover) {
 
     for solution in &oracle.solutions {
         let in_a_family = cover.families.iter().any(|f| f.support == solution.slip);
-        let is_listed = cover.solutions.iter().any(|c| is_same(solution, c));
+        let is_listed = cover.solutions.iter().any(|c| is_claimed(solution, c));
         assert!(
             in_a_family || is_listed,
             "complete, but {:?} at {} is missing",
@@ -232,31 +222,6 @@ fn assert_complete(oracle: &Enumeration, cover: &AcceptedCover) {
             solution.decimal(12)
         );
     }
-}
-
-/// Does the enumerator's answer hold a solution with this support and a value in this interval:
-/// one of its list, of a cone, or of a range?
-fn is_listed(oracle: &Enumeration, claim: &AcceptedClaim) -> bool {
-    let in_a_cone = |c: &Cone| {
-        let is_on_a_face = claim.support.iter().all(|i| c.slip.contains(i));
-        is_on_a_face && is_within(&c.value, claim)
-    };
-
-    oracle.solutions.iter().any(|s| is_same(s, claim))
-        || oracle.cones.iter().any(in_a_cone)
-        || oracle.ranges.iter().any(|r| r.support == claim.support)
-}
-
-/// Same support, and the solution's value lies in the claim's interval.
-fn is_same(s: &Solution, claim: &AcceptedClaim) -> bool {
-    s.slip == claim.support && is_within(&s.value, claim)
-}
-
-/// Does the value lie in the claim's interval?
-fn is_within(value: &Algebraic, claim: &AcceptedClaim) -> bool {
-    let mut value = value.clone();
-    value.cmp_rational(claim.value.lo()) != Ordering::Less
-        && value.cmp_rational(claim.value.hi()) != Ordering::Greater
 }
 
 /// Certificates of every kind for the fixed problems: the seeds of the corpus.

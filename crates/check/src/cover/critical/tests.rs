@@ -84,7 +84,7 @@ fn member(of: &System, choice: usize) -> System {
 
     let mut particles = of.as_given().particles().to_vec();
     if let Some([lo, hi]) = of.particles()[1].friction_factor_range.clone() {
-        particles[1].friction_factor = if choice % 2 == 0 { lo } else { hi };
+        particles[1].friction_factor = if choice.is_multiple_of(2) { lo } else { hi };
     }
     let stiffness = corner(of.stiffness(), &of.radii().stiffness);
     let mass = corner(of.mass().unwrap(), &of.radii().mass);
