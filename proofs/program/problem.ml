@@ -175,9 +175,14 @@ let read_directions order field contact_of =
             frame_normal = planar normal; into_obstacle = Z.of_int into;
             factor_of = point_of friction_factor }
 
+(* Data with radii stand for a set of bodies, of which no theorem here speaks. *)
+let exact_only value = if value <> Null then not_verified "data with radii"
+
 let read_particle order mu item =
   let field =
-    fields ["tangential"; "normal"; "state"] ("sign" :: "reaction" :: directions) item in
+    fields ["tangential"; "normal"; "state"]
+      ("sign" :: "reaction" :: "friction_factor_range" :: directions) item in
+  exact_only (field "friction_factor_range");
   let state = text (field "state") in
   let sign = unit_of "sign" (field "sign") in
   if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
@@ -226,7 +231,8 @@ let body_lines particles k m =
   @ (match m with Some m -> canonical_matrix "mass" m | None -> [])
 
 let read_system folder unknown item =
-  let field = fields ["stiffness"; "particles"] ["mass"; "friction"] item in
+  let field = fields ["stiffness"; "particles"] ["mass"; "friction"; "radii"] item in
+  exact_only (field "radii");
   let k, m, mu = read_body folder field in
   if unknown = "lambda2" && (m = None || mu = None) then
     malformed "lambda2 needs mass and friction";
