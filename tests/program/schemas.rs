@@ -106,6 +106,9 @@ fn examples_and_written_files_are_valid() {
         }
 
         valid(&problems, &example, &file);
+        if !example["system"]["radii"].is_null() {
+            continue; // a set of bodies has no pencil
+        }
 
         let reduced = serde_json::from_str(&run(&format!("reduce {file}")).stdout).unwrap();
         valid(&problems, &reduced, &format!("reduce {file}"));
@@ -701,9 +704,7 @@ fn damaged_frictions_agree(tally: &mut Tally) {
 fn damaged_equilibria_agree(tally: &mut Tally) {
     let is_of_meaning = |e: &dyn Display| e.to_string().contains("expected an integer");
     let accepted = |name: &str| {
-        let file = read_json(root(&format!(
-            "spec/corpus/accept/equilibrium-{name}.json"
-        )));
+        let file = read_json(root(&format!("spec/corpus/accept/equilibrium-{name}.json")));
         file["certificate"].clone()
     };
 
