@@ -1106,6 +1106,7 @@ class CondensedPencil:
                 demand(lo > 0 if backwards else hi is not None, "Unbounded: a piece with an anchor")
                 ends += ([Q(0) if hi is None else 1 / hi, 1 / lo]) if backwards else [lo, hi]
         delta, last = max(abs(t - center) for t in ends), max(ends)
+        demand(max(delta, last) < 2**4096, "TooLarge: what an anchor serves")
         ra, rb = self.p.spread[1::-1] if backwards else self.p.spread[:2]
         r = [plus(x, y, last) for x, y in zip(ra, rb)]
 

@@ -270,7 +270,7 @@ impl<'a> Anchors<'a> {
             }
         }
 
-        Ok(reach)
+        reach.rounded_up()
     }
 }
 

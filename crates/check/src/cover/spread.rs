@@ -23,10 +23,16 @@
 
 use super::condensed::{IntegralBlocks, LinearBlocks, MatrixPolynomial, add_squares, norms, ones};
 use super::ends::{FRACTION_BITS, LongMatrix};
+use super::fault::CoverFault;
 use super::product::Linear;
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
+
+/// Most bits of the integral part of what an anchor serves, and bits to which it is rounded up: the
+/// ends of pieces may be long numbers, and every number here would be as long.
+const MAX_EXPONENT: u64 = 1 << 12;
+const REACH_BITS: u64 = 64;
 
 /// Fraction bits of W_max and V_max.
 const BOUND_BITS: u64 = FRACTION_BITS / 2;
@@ -45,6 +51,34 @@ pub(super) struct MemberSpread {
 pub(super) struct Reach {
     pub(super) distance: Rational,
     pub(super) top: Rational,
+}
+
+impl Reach {
+    /// The same with short numbers, none smaller.
+    ///
+    /// # Errors
+    /// [`CoverFault::TooLarge`] for values of 2^[`MAX_EXPONENT`] and more.
+    pub(super) fn rounded_up(&self) -> Result<Reach, CoverFault> {
+        Ok(Reach {
+            distance: rounded_up(&self.distance)?,
+            top: rounded_up(&self.top)?,
+        })
+    }
+}
+
+/// The number itself where it is short, or else a short one above it: by at most 2^-62 of it, or
+/// 2^-[`MAX_EXPONENT`].
+fn rounded_up(v: &Rational) -> Result<Rational, CoverFault> {
+    let [numerator, denominator] = [v.numer().bits(), v.denom().bits()];
+    if numerator.max(denominator) <= REACH_BITS {
+        return Ok(v.clone());
+    }
+
+    let what = "bits of the integral part of what an anchor serves";
+    CoverFault::at_most(what, MAX_EXPONENT, v.to_integer().bits())?;
+    let fraction_bits = (REACH_BITS + denominator.saturating_sub(numerator)).min(MAX_EXPONENT);
+    let scaled = (v.numer() << fraction_bits).div_ceil(v.denom());
+    Ok(Rational::new(scaled, Integer::one() << fraction_bits))
 }
 
 /// W and V about a center.
@@ -245,4 +279,32 @@ fn transposed(rows: &RadiusRows, columns: usize) -> RadiusRows {
     }
 
     transposed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::{rational, whole};
+
+    /// Long numbers become short ones that are hardly larger, and none becomes smaller.
+    #[test]
+    fn what_an_anchor_serves_is_rounded_up() {
+        let two = |exponent: u32| Rational::from_integer(Integer::one() << exponent);
+        assert_eq!(rounded_up(&rational(7, 3)), Ok(rational(7, 3)));
+
+        for long in [
+            two(200) + rational(1, 3),
+            (two(200) + whole(1)) / (two(201) - whole(3)),
+            two(2000).recip() * rational(5, 3),
+            two(5000).recip(),
+        ] {
+            let rounded = rounded_up(&long).unwrap();
+            assert!(rounded >= long);
+            assert!(&rounded - &long <= &long / two(62) + two(4096).recip());
+            assert!(rounded.denom().bits() <= 4097 && rounded.numer().bits() <= 4200);
+        }
+
+        let refused = rounded_up(&two(5000));
+        assert!(matches!(refused, Err(CoverFault::TooLarge { .. })));
+    }
 }
