@@ -182,6 +182,21 @@ def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_proble
             moved.check()
 
 
+def test_every_body_within_the_radii_has_its_critical_friction_between_two_bounds(example):
+    analysis = example("robust").analyze(samples=0)
+    members = analysis.members
+
+    # To first order 0.6910 and 0.0410, both ways.
+    assert 0.64 < members.absent_below < 0.66
+    assert 0.73 < members.present[0] < 0.74 < members.present[1]
+    assert abs(members.middle - 0.69098) < 1e-5 and abs(members.width - 0.0410) < 1e-4
+    assert next(iter(members.costs)) == "the friction factor of particle heel"
+    verdicts = [proof.check() for proof in analysis.proofs if proof.name.startswith("members")]
+    assert [type(verdict) for verdict in verdicts] == [mceip.Absence, mceip.Presence]
+
+    assert example("point").analyze(samples=0).members is None
+
+
 def test_without_divergence_at_any_friction_there_is_no_critical_one(point):
     analysis = point(((2.0, 0.0), (0.0, 2.0))).analyze(samples=0)
 
