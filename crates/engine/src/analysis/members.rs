@@ -23,6 +23,7 @@ use super::model::AnalysisModel;
 use super::presence::{PresenceGround, Prover};
 use crate::branch::BranchPoint;
 use crate::run::Progress;
+use crate::tolerance::CRITICAL_GAPS;
 use mceip_check::AcceptedPresence;
 use mceip_exact::{Rational, from_f64, to_f64, whole};
 use mceip_model::{Body, Problem, System, Unknown, Window};
@@ -168,12 +169,20 @@ pub(super) fn members(
         }
     }
 
-    let absence = match &members.first_order {
-        Some(FirstOrder { middle, width, .. }) => {
+    // The radii may cost nothing to first order.
+    let place = members.first_order.as_ref();
+    let place = place.map(|found| {
+        (
+            found.middle,
+            found.width.max(CRITICAL_GAPS[0] * found.middle),
+        )
+    });
+    let absence = match place {
+        Some((middle, width)) => {
             // middle - off for a small one, and never negative.
             let below = |multiple: f64| {
                 let off = multiple * width;
-                short_bound(*middle, off / (middle + off))
+                short_bound(middle, off / (middle + off))
             };
             smallest_multiple(|multiple| match below(multiple) {
                 Some(below) => search.absence(&below),
@@ -187,14 +196,11 @@ pub(super) fn members(
         members.absent_below = Some((below, Evidence::Certificate(proofs.len() - 1)));
     }
 
-    if let (Some(start), Some(FirstOrder { middle, width, .. })) =
-        (&found.start, &members.first_order)
+    if let (Some(start), Some((middle, width))) = (&found.start, place)
+        && let Some((range, proof)) = search.presence(start, middle + width)?
     {
-        let presence = search.presence(start, middle + width)?;
-        if let Some((range, proof)) = presence {
-            proofs.push(proof);
-            members.present = Some((range, Evidence::Certificate(proofs.len() - 1)));
-        }
+        proofs.push(proof);
+        members.present = Some((range, Evidence::Certificate(proofs.len() - 1)));
     }
 
     Ok(members)
