@@ -8,7 +8,7 @@
 mod page;
 
 use super::common::{
-    CliError, aside, exit, number, print, require_count, require_threads, shell_word,
+    CliError, aside, exit, number, print_answer, require_count, require_threads, shell_word,
 };
 use super::job::{CHECKPOINT, Job};
 use super::output::{Folder, Output, folder_of};
@@ -143,12 +143,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Ok(())
     };
 
-    let text = if args.json {
-        format!("{}\n", analysis.to_json(paths))
-    } else {
-        text_of(&analysis, paths, args)
-    };
-    print(&text)?;
+    print_answer(
+        args.json,
+        || analysis.to_json(paths),
+        || text_of(&analysis, paths, args),
+    )?;
     written.and(page).and(pictures)?;
 
     Ok(exit_code(&analysis))

@@ -15,7 +15,7 @@ pub(super) mod scale_error;
 
 pub(super) use args::Args;
 
-use super::common::{CliError, aside, exit, print};
+use super::common::{CliError, aside, exit, print_answer};
 use super::job::Job;
 use super::output::Folder;
 use args::published;
@@ -62,13 +62,8 @@ fn published_states(args: &Args) -> Result<u8, CliError> {
         say_what_failed(report);
     }
 
-    let text = if args.json {
-        let states: Vec<Value> = reports.iter().map(json_of).collect();
-        format!("{}\n", json!({ "states": states }))
-    } else {
-        text_of(&reports)
-    };
-    print(&text)?;
+    let json = || json!({ "states": reports.iter().map(json_of).collect::<Vec<Value>>() });
+    print_answer(args.json, json, || text_of(&reports))?;
 
     Ok(exit_code(&reports, job.is_cancelled()))
 }

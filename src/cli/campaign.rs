@@ -6,7 +6,9 @@
 
 mod summary;
 
-use super::common::{CliError, aside, exit, part, print, require_count, require_threads, text};
+use super::common::{
+    CliError, aside, exit, part, print_answer, require_count, require_threads, text,
+};
 use super::job::{interrupt, is_quiet};
 use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -111,12 +113,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     // A terminal that has gone away is no error.
     bars.all.clear().unwrap_or_default();
-    let text = if args.json {
-        format!("{}\n", summary::json_of(&state))
-    } else {
-        summary::text_of(&state)
-    };
-    print(&text)?;
+    print_answer(
+        args.json,
+        || summary::json_of(&state),
+        || summary::text_of(&state),
+    )?;
     if let Some(e) = keeper.failed {
         return Err(e);
     }
@@ -190,12 +191,11 @@ fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
     let case = replay.case().map_err(|e| CliError::other_file(path, e))?;
     let judged = judge(&case, &standard(replay.seed));
 
-    let text = if args.json {
-        format!("{}\n", summary::replay_json(&replay, &judged))
-    } else {
-        summary::replay_text(&replay, &judged)
-    };
-    print(&text)?;
+    print_answer(
+        args.json,
+        || summary::replay_json(&replay, &judged),
+        || summary::replay_text(&replay, &judged),
+    )?;
 
     Ok(if judged.findings.is_empty() {
         exit::DONE

@@ -10,6 +10,7 @@ use mceip_model::{ModelError, Problem, Window};
 use mceip_oracle::OracleError;
 use mceip_testkit::TestkitError;
 use num_traits::Signed as _;
+use serde_json::Value;
 use std::io::{ErrorKind, IsTerminal as _, Write as _};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -406,6 +407,19 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
         }
         _ => Ok(()),
     }
+}
+
+/// Prints an answer: as a line of JSON, or as a text.
+pub(super) fn print_answer(
+    is_json: bool,
+    json: impl FnOnce() -> Value,
+    text: impl FnOnce() -> String,
+) -> Result<(), CliError> {
+    print(&if is_json {
+        format!("{}\n", json())
+    } else {
+        text()
+    })
 }
 
 /// A path as a shell reads it back, in a command that is to be copied.

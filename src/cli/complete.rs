@@ -4,7 +4,7 @@
 //! (`--resume`). What is printed is what the checker has proved of it.
 
 use super::common::{
-    CliError, exit, part, print, require_count, require_threads, seconds, shell_word, text,
+    CliError, exit, part, print_answer, require_count, require_threads, seconds, shell_word, text,
 };
 use super::infinity::{AtInfinity, Files, LimitProblem};
 use super::job::{CHECKPOINT, Job, is_quiet};
@@ -13,6 +13,7 @@ use super::question::{Question, load_question};
 use crate::SolutionSet;
 use mceip_check::certificate::Certificate;
 use mceip_engine::search::complete::CompleteOptions;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -124,7 +125,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         (Some(at_infinity), Some(files)) => at_infinity.write(files),
         _ => Ok(()),
     };
-    print(&answer(args, &set, at_infinity.as_ref()))?;
+    let json = || json(&set, at_infinity.as_ref());
+    print_answer(args.json, json, || answer(&set, at_infinity.as_ref()))?;
     written.and(written_at_infinity)?;
 
     let is_complete_there = at_infinity.is_none_or(|there| there.is_complete());
@@ -162,17 +164,18 @@ pub(super) fn read(path: &Path) -> Result<Certificate, CliError> {
     Certificate::from_json(&source).map_err(|source| CliError::file(path, source))
 }
 
-/// What is printed.
-fn answer(args: &Args, set: &SolutionSet, at_infinity: Option<&AtInfinity>) -> String {
-    if args.json {
-        let mut report = set.to_json();
-        if let Some(at_infinity) = at_infinity {
-            report["at_infinity"] = at_infinity.json();
-        }
-
-        return format!("{report}\n");
+/// What is printed for programs.
+fn json(set: &SolutionSet, at_infinity: Option<&AtInfinity>) -> Value {
+    let mut report = set.to_json();
+    if let Some(at_infinity) = at_infinity {
+        report["at_infinity"] = at_infinity.json();
     }
 
+    report
+}
+
+/// What is printed for people.
+fn answer(set: &SolutionSet, at_infinity: Option<&AtInfinity>) -> String {
     let mut out = set.to_string();
     if let Some(at_infinity) = at_infinity {
         out += &at_infinity.text();

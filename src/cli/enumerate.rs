@@ -4,7 +4,7 @@
 //! ones that meet the inequalities. With particles in contact with zero reaction the same for each
 //! choice of modes (`spec/zero-reaction.md`, Z.3).
 
-use super::common::{CliError, exit, print};
+use super::common::{CliError, exit, print_answer};
 use super::job::Job;
 use super::question::{Question, load_question};
 use crate::Problem;
@@ -35,12 +35,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let found = question.on_progress(|progress| job.say(progress)).run()?;
     job.end();
 
-    let text = if args.json {
-        format!("{}\n", found.to_json())
-    } else {
-        found.to_string()
-    };
-    print(&text)?;
+    print_answer(args.json, || found.to_json(), || found.to_string())?;
 
     Ok(if !found.is_finished() {
         exit::INTERRUPTED

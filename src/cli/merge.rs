@@ -1,7 +1,7 @@
 //! `mceip merge --problem FILE CERTIFICATE...`: the parts of a complete search put together, or
 //! refused.
 
-use super::common::{CliError, exit, load, print};
+use super::common::{CliError, exit, load, print_answer};
 use super::complete::read;
 use super::output::Output;
 use crate::{Error, Problem, check};
@@ -47,12 +47,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         output.write(&set.proved().file()?)?;
     }
 
-    let text = if args.json {
-        format!("{}\n", set.to_json())
-    } else {
-        set.to_string()
-    };
-    print(&text)?;
+    print_answer(args.json, || set.to_json(), || set.to_string())?;
 
     Ok(if set.is_complete() {
         exit::DONE

@@ -10,7 +10,7 @@ mod own;
 mod pages;
 mod states;
 
-use super::common::{CliError, exit, friction_of, print, text};
+use super::common::{CliError, exit, friction_of, print_answer, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use super::pictures::{self, PictureArgs, PictureFolders};
@@ -268,11 +268,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         picture.write(&pages::path_chart(&followed, &names).to_svg())
     });
 
-    print(&if args.json {
-        format!("{}\n", outcome.json())
-    } else {
-        outcome.text()
-    })?;
+    print_answer(args.json, || outcome.json(), || outcome.text())?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(picture).and(pages)?;
     let code = exit_code(path, outcome.examined.as_ref(), outcome.is_interrupted);

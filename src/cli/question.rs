@@ -5,7 +5,7 @@
 //! a problem. Commands that answer a question say instead that there is no solution; the proof is
 //! section Z.2 of `spec/zero-reaction.md`. For mu = 0 it needs K* positive definite there.
 
-use super::common::{CliError, aside, exit, load, print, text};
+use super::common::{CliError, aside, exit, load, print_answer, text};
 use mceip_engine::analysis::conditions::excluded_at;
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::report::Claimed;
@@ -47,25 +47,18 @@ impl NoSolution {
         let complete = Claimed::Complete.word();
         let evidence = format!("theorem: {why}");
         let sentence = format!("COMPLETE: no solution, by theorem: {why}\n");
-        print(&without_solutions(
-            self.unknown,
-            is_json,
-            [complete, &evidence, &sentence],
-        ))?;
+        print_without_solutions(self.unknown, is_json, [complete, &evidence, &sentence])?;
         Ok(exit::DONE)
     }
 }
 
-/// A report that lists no solution: its claim and evidence for programs, its sentence for people.
-pub(super) fn without_solutions(
+/// Prints a report that lists no solution: its claim and evidence for programs, its sentence for
+/// people.
+pub(super) fn print_without_solutions(
     unknown: Unknown,
     is_json: bool,
     [claim, evidence, sentence]: [&str; 3],
-) -> String {
-    if !is_json {
-        return sentence.to_string();
-    }
-
+) -> Result<(), CliError> {
     let report = json!({
         "format": SOLUTIONS_FORMAT,
         "unknown": unknown.word(),
@@ -73,7 +66,7 @@ pub(super) fn without_solutions(
         "evidence": evidence,
         "solutions": [],
     });
-    format!("{report}\n")
+    print_answer(is_json, || report, || sentence.to_string())
 }
 
 const NOTHING_SLIPS: &str = "no particle is in impending slip (spec/zero-reaction.md, Z.2)";

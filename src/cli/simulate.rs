@@ -7,7 +7,7 @@
 mod report;
 
 use super::common::{
-    CliError, exit, friction_of, load, positive, print, require_count, require_threads,
+    CliError, exit, friction_of, load, positive, print_answer, require_count, require_threads,
 };
 use super::job::Job;
 use super::output::Output;
@@ -105,12 +105,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = output {
         output.write(&report::picture(&simulation).to_svg())?;
     }
-    let text = if args.json {
-        format!("{}\n", report::json(&simulation))
-    } else {
-        report::text(&simulation)
-    };
-    print(&text)?;
+    print_answer(
+        args.json,
+        || report::json(&simulation),
+        || report::text(&simulation),
+    )?;
     Ok(exit_code(&simulation))
 }
 

@@ -10,10 +10,10 @@ mod trace;
 
 pub(super) use args::Args;
 
-use super::common::{CliError, aside, exit, print, require_count, text};
+use super::common::{CliError, aside, exit, print_answer, require_count, text};
 use super::job::Job;
 use super::output::Output;
-use super::question::{Question, load_question, without_solutions};
+use super::question::{Question, load_question, print_without_solutions};
 use crate::{Error, Found, Problem};
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::multistart::{MAX_STARTS, SearchError, trace_outcome};
@@ -119,13 +119,8 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
         _ => Ok(()),
     };
 
-    let text = if args.json {
-        format!("{}\n", found.to_json())
-    } else {
-        found.to_string()
-    };
     print_asides(args, &problem, &found)?;
-    print(&text)?;
+    print_answer(args.json, || found.to_json(), || found.to_string())?;
     proofs.and(log)?;
 
     Ok(if found.is_cancelled {
@@ -142,11 +137,7 @@ fn undecided(args: &Args, unknown: Unknown, reason: &SearchError) -> Result<u8, 
     let claim = Claimed::Solutions.word();
     let evidence = format!("no search: {reason}");
     let sentence = format!("UNDECIDED: {reason}\n");
-    print(&without_solutions(
-        unknown,
-        args.json,
-        [claim, &evidence, &sentence],
-    ))?;
+    print_without_solutions(unknown, args.json, [claim, &evidence, &sentence])?;
     Ok(exit::UNDECIDED)
 }
 

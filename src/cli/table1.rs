@@ -4,7 +4,7 @@
 //! (S_1, S_2) all solutions of MCEIP-lambda2 are listed as the enumerator finds them, and compared
 //! with the closed form of Table 1 and with what the solver finds and certifies.
 
-use super::common::{CliError, aside, exit, number, positive, print};
+use super::common::{CliError, aside, exit, number, positive, print_answer};
 use super::output::Output;
 use crate::picture::table1_picture;
 use mceip_engine::multistart::Search;
@@ -104,15 +104,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         }
     }
 
-    let text = if args.json {
-        let out = json!({ "solutions": solutions, "agreement": agreed });
-        format!("{out}\n")
-    } else {
+    let json = || json!({ "solutions": solutions, "agreement": agreed });
+    let text = || {
         let verdict = verdict(agreed, uncertified);
         let TwoParticles { c, s, k, m, mu, .. } = data;
         format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n")
     };
-    print(&text)?;
+    print_answer(args.json, json, text)?;
 
     Ok(if agreed { exit::DONE } else { exit::REJECTED })
 }

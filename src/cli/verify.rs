@@ -4,7 +4,7 @@
 //! are solved, certified, checked and compared with the oracle. With `--verified` each certificate
 //! is also given to the verified checker of `proofs/`. Here the outcome is printed.
 
-use super::common::{CliError, exit, print, require_count};
+use super::common::{CliError, exit, print_answer, require_count};
 use super::job::Job;
 use mceip_engine::report::Table;
 use mceip_testkit::floors::{Covered, Shortfall, floor};
@@ -51,12 +51,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     job.end();
 
     let counts = checker.is_some().then(|| outcome.verified());
-    let text = if args.json {
-        format!("{}\n", json_of(&outcome, counts.as_ref()))
-    } else {
-        text_of(&outcome, counts.as_ref(), args.verbose)
-    };
-    print(&text)?;
+    print_answer(
+        args.json,
+        || json_of(&outcome, counts.as_ref()),
+        || text_of(&outcome, counts.as_ref(), args.verbose),
+    )?;
 
     Ok(exit_code(&outcome))
 }

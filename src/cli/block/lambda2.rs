@@ -11,7 +11,7 @@ use super::args::{Args, published};
 use super::doubles::CondensedBlock;
 use super::scale;
 use super::scale_error::ScaleError;
-use crate::cli::common::{CliError, exit, positive_number, print};
+use crate::cli::common::{CliError, exit, positive_number, print_answer};
 use crate::cli::job::Job;
 use mceip_engine::candidate::BACKWARD_ERROR_DIGITS;
 use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};
@@ -85,13 +85,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     job.end();
 
-    let text = if args.json {
-        let rows: Vec<Value> = rows.iter().map(FrictionRow::json).collect();
-        format!("{}\n", json!({ "lambda2": rows }))
-    } else {
-        text_of(&rows, args.seed)
-    };
-    print(&text)?;
+    let json = || json!({ "lambda2": rows.iter().map(FrictionRow::json).collect::<Vec<Value>>() });
+    print_answer(args.json, json, || text_of(&rows, args.seed))?;
 
     let is_certified = rows.iter().all(FrictionRow::is_certified);
     Ok(if job.is_cancelled() {

@@ -5,7 +5,7 @@
 //! latter proves something of the pencil whose entries are these doubles, not of the mesh.
 
 use super::scale_error::ScaleError;
-use crate::cli::common::{CliError, exit, print};
+use crate::cli::common::{CliError, exit, print_answer};
 use crate::cli::job::Job;
 use crate::cli::output::{Output, make_writable};
 use mceip_engine::multistart::{AllSlip, all_slip};
@@ -52,7 +52,7 @@ struct Seconds {
 }
 
 /// Condenses each mesh and prints the table.
-pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result<u8, CliError> {
+pub(super) fn run(scales: &[String], is_json: bool, write: Option<&Path>) -> Result<u8, CliError> {
     let models = scales.iter().map(|text| model(text));
     let models = models.collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = write {
@@ -75,13 +75,8 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
     }
     job.end();
 
-    let text = if json {
-        let rows: Vec<Value> = rows.iter().map(StudyRow::json).collect();
-        format!("{}\n", json!({ "scale": rows }))
-    } else {
-        text_of(&rows)
-    };
-    print(&text)?;
+    let json = || json!({ "scale": rows.iter().map(StudyRow::json).collect::<Vec<Value>>() });
+    print_answer(is_json, json, || text_of(&rows))?;
 
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
