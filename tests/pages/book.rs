@@ -4,13 +4,9 @@
 //! The truth is the list of files and the source of the checker. A page without an entry, a link to
 //! a file that is gone or a new reason without a row fails here.
 
-use crate::root;
+use crate::{read, root};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-
-fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).unwrap()
-}
 
 /// The targets of the links and pictures of a page, code left out.
 fn targets(page: &str) -> Vec<String> {
@@ -48,7 +44,7 @@ fn pages() -> BTreeSet<String> {
 
 #[test]
 fn the_summary_lists_every_page_once() {
-    let listed = targets(&read(&root().join("spec/SUMMARY.md")));
+    let listed = targets(&read("spec/SUMMARY.md"));
     for page in pages() {
         let times = listed.iter().filter(|target| **target == page).count();
         assert_eq!(times, 1, "{page} in SUMMARY.md");
@@ -80,10 +76,10 @@ fn every_link_leads_to_a_file() {
 #[test]
 fn links_between_pages_lead_to_pages_of_the_book() {
     let spec = root().join("spec");
-    let listed = targets(&read(&spec.join("SUMMARY.md")));
+    let listed = targets(&read("spec/SUMMARY.md"));
 
     for page in pages() {
-        for target in targets(&read(&spec.join(&page))) {
+        for target in targets(&read(spec.join(&page))) {
             let is_page = target.ends_with(".md") && !target.starts_with("..");
             let is_readme = target.ends_with("README.md");
             let is_listed = listed.contains(&target) && !is_readme;
@@ -97,7 +93,7 @@ fn links_between_pages_lead_to_pages_of_the_book() {
 #[test]
 fn lines_have_at_most_a_hundred_columns() {
     for page in pages() {
-        let text = read(&root().join("spec").join(&page));
+        let text = read(root().join("spec").join(&page));
         let mut in_code = false;
 
         for (number, line) in text.lines().enumerate() {
@@ -126,7 +122,7 @@ fn targets_are_found_and_code_is_not() {
 
 /// The variants of the enum that a source file declares.
 fn variants(source: &str) -> BTreeSet<String> {
-    let text = read(&root().join(source));
+    let text = read(source);
     let declaration = text.split("\npub enum ").nth(1).unwrap();
     let body = declaration.split("\n}\n").next().unwrap();
 
@@ -152,7 +148,7 @@ fn every_reason_of_rejection_is_explained() {
         expected.insert(format!("Cover.{fault}"));
     }
 
-    let page = read(&root().join("spec/reasons.md"));
+    let page = read("spec/reasons.md");
     let rows = page.lines().filter(|line| line.starts_with("| ")).skip(1);
     let explained: Vec<String> = rows
         .map(|row| row.split(" | ").next().unwrap()[2..].to_string())
@@ -189,7 +185,7 @@ fn sources(folder: &Path) -> BTreeSet<String> {
 /// The reading list of 10.3 has every file of the checker, each once.
 #[test]
 fn the_reading_list_has_every_file_of_the_checker() {
-    let page = read(&root().join("spec/verifying.md"));
+    let page = read("spec/verifying.md");
     let section = page.split("## 10.3 Read the checker").nth(1).unwrap();
     let table = section.split("Machine integers").next().unwrap();
 

@@ -4,8 +4,8 @@
 //! test was renamed, an equation without a row, or a claim that only ignored tests support without
 //! saying so fails here.
 
+use crate::{read, root};
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// What a row may say of its claim; the page says what each means.
 const STATUSES: [&str; 7] = [
@@ -27,8 +27,8 @@ const CHAPTERS: [&str; 5] = [
     "paper-examples",
 ];
 
-fn read(path: &str) -> Option<String> {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).ok()
+fn text_of(path: &str) -> Option<String> {
+    std::fs::read_to_string(root().join(path)).ok()
 }
 
 /// A row of the page.
@@ -69,12 +69,12 @@ fn read_row(line: &str) -> Row {
 /// each file of a folder? Or is it a page of transcripts?
 fn exists(test: &str) -> bool {
     if test.starts_with("tests/transcripts/") {
-        return read(test).is_some();
+        return root().join(test).is_file();
     }
     let Some((file, name)) = test.split_once("::") else {
         return false;
     };
-    let Some(text) = read(file) else {
+    let Some(text) = text_of(file) else {
         return false;
     };
     let Some((before, _)) = text.split_once(&format!("fn {name}(")) else {
@@ -94,7 +94,7 @@ fn is_ignored(test: &str) -> bool {
     let Some((file, name)) = test.split_once("::") else {
         return false;
     };
-    let text = read(file).unwrap_or_default();
+    let text = text_of(file).unwrap_or_default();
     let declaration = format!("fn {name}(");
     let before = text.split(&declaration).next().unwrap_or_default();
 
@@ -105,7 +105,7 @@ fn is_ignored(test: &str) -> bool {
 /// A claim that rests on ignored tests alone says that it is opt-in.
 #[test]
 fn claims_of_ignored_tests_say_that_they_are_opt_in() {
-    for row in rows(&read("spec/conformance.md").unwrap()) {
+    for row in rows(&read("spec/conformance.md")) {
         let tests = &row.tests;
         if tests.is_empty() || !tests.iter().all(|test| is_ignored(test)) {
             continue;
@@ -128,7 +128,7 @@ fn claims_of_ignored_tests_say_that_they_are_opt_in() {
 
 #[test]
 fn every_row_names_a_status_and_tests_that_exist() {
-    let rows = rows(&read("spec/conformance.md").unwrap());
+    let rows = rows(&read("spec/conformance.md"));
     let mut seen = BTreeSet::new();
 
     for row in &rows {
@@ -154,9 +154,9 @@ fn every_row_names_a_status_and_tests_that_exist() {
 
 #[test]
 fn every_id_of_the_equations_page_has_a_row() {
-    let rows = rows(&read("spec/conformance.md").unwrap());
+    let rows = rows(&read("spec/conformance.md"));
     let ids: BTreeSet<String> = rows.into_iter().map(|row| row.id).collect();
-    let chapters = CHAPTERS.map(|page| read(&format!("spec/{page}.md")).unwrap());
+    let chapters = CHAPTERS.map(|page| read(format!("spec/{page}.md")));
     let equations = chapters.join("\n");
 
     let numbered = (1..=34).map(|number| format!("E{number}"));

@@ -4,30 +4,37 @@
 //! The truth is the checker, and the files of `spec/examples/certificates` for the page. A block
 //! that was changed on the page alone, or a kind of evidence without an example, fails here.
 
+use crate::{read, root};
+use mceip_check::Provable;
 use mceip_check::certificate::{
     Certificate, CriticalCertificate, PresenceCertificate, StabilityCertificate,
 };
-use mceip_check::{check, check_critical, check_presence, check_stability};
 use mceip_exact::rational;
+use mceip_model::Problem;
 use mceip_model::file::read_problem;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
-fn spec() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("spec")
+/// The files of the examples, in the repository.
+const FOLDER: &str = "spec/examples/certificates";
+
+/// The text of the file of an example.
+fn text_of(file: &str) -> String {
+    read(format!("{FOLDER}/{file}"))
 }
 
-fn folder() -> PathBuf {
-    spec().join("examples/certificates")
-}
+/// What the checker says is proved by the certificate of an example.
+fn accepted<C: Provable<Subject = Problem>>(name: &str) -> C::Accepted {
+    let problem = text_of(&format!("{name}.problem.json"));
+    let problem = read_problem(&problem, &root().join(FOLDER)).unwrap();
+    let certificate = C::read(&text_of(&format!("{name}.json"))).unwrap();
 
-fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).unwrap()
+    let checked = certificate.check(&problem);
+    checked.unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// The names of the examples: each has a problem and a certificate.
 fn names() -> BTreeSet<String> {
-    let files = std::fs::read_dir(folder()).unwrap();
+    let files = std::fs::read_dir(root().join(FOLDER)).unwrap();
     let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
 
     names
@@ -65,12 +72,7 @@ fn the_checker_gives_each_example_its_verdict() {
     let others = ["mcp", "critical", "presence", "stability"];
     let is_other = |name: &str| others.iter().any(|other| name.starts_with(other));
     for name in names.iter().filter(|name| !is_other(name)) {
-        let problem = read(&folder().join(format!("{name}.problem.json")));
-        let certificate = read(&folder().join(format!("{name}.json")));
-
-        let problem = read_problem(&problem, &folder()).unwrap();
-        let certificate = Certificate::from_json(&certificate).unwrap();
-        let accepted = check(&problem, &certificate).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let accepted = accepted::<Certificate>(name);
 
         let open = accepted.cover.map_or(0, |cover| cover.open.len());
         assert_eq!(open, usize::from(name == "open"), "{name}");
@@ -86,13 +88,8 @@ fn the_checker_accepts_each_absence_below_a_friction() {
         ("critical-free", rational(1, 1)),
         ("critical-regular", rational(1, 1)),
     ] {
-        let problem = read(&folder().join(format!("{name}.problem.json")));
-        let certificate = read(&folder().join(format!("{name}.json")));
-
-        let problem = read_problem(&problem, &folder()).unwrap();
-        let certificate = CriticalCertificate::from_json(&certificate).unwrap();
-        let accepted = check_critical(&problem, &certificate);
-        assert_eq!(accepted.unwrap().below, below, "{name}");
+        let accepted = accepted::<CriticalCertificate>(name);
+        assert_eq!(accepted.below, below, "{name}");
     }
 }
 
@@ -103,12 +100,7 @@ fn the_checker_accepts_each_presence_on_an_interval_of_friction() {
         ("presence-fold", rational(2, 1), rational(5, 2)),
         ("presence-free", rational(3, 1), rational(7, 2)),
     ] {
-        let problem = read(&folder().join(format!("{name}.problem.json")));
-        let certificate = read(&folder().join(format!("{name}.json")));
-
-        let problem = read_problem(&problem, &folder()).unwrap();
-        let certificate = PresenceCertificate::from_json(&certificate).unwrap();
-        let accepted = check_presence(&problem, &certificate).unwrap();
+        let accepted = accepted::<PresenceCertificate>(name);
         assert_eq!((accepted.from, accepted.to), (from, to), "{name}");
     }
 }
@@ -116,12 +108,7 @@ fn the_checker_accepts_each_presence_on_an_interval_of_friction() {
 #[test]
 fn the_checker_accepts_each_stability_on_an_interval_of_friction() {
     for (name, to) in [("stability", 1), ("stability-free", 2)] {
-        let problem = read(&folder().join(format!("{name}.problem.json")));
-        let certificate = read(&folder().join(format!("{name}.json")));
-
-        let problem = read_problem(&problem, &folder()).unwrap();
-        let certificate = StabilityCertificate::from_json(&certificate).unwrap();
-        let accepted = check_stability(&problem, &certificate).unwrap();
+        let accepted = accepted::<StabilityCertificate>(name);
         assert_eq!(
             (accepted.from, accepted.to),
             (rational(0, 1), rational(to, 1)),
@@ -136,8 +123,8 @@ fn the_checker_accepts_each_stability_on_an_interval_of_friction() {
 fn the_plain_problem_has_the_solution_of_the_page() {
     use mceip_engine::lcp::{judge, read_mcp, read_solution};
 
-    let problem = read_mcp(&read(&folder().join("mcp.problem.json"))).unwrap();
-    let solution = read_solution(&read(&folder().join("mcp.json"))).unwrap();
+    let problem = read_mcp(&text_of("mcp.problem.json")).unwrap();
+    let solution = read_solution(&text_of("mcp.json")).unwrap();
     assert!(judge(&problem, &solution).is_ok());
 }
 
@@ -145,7 +132,7 @@ fn the_plain_problem_has_the_solution_of_the_page() {
 fn every_kind_of_evidence_has_an_example() {
     let all: Vec<String> = names()
         .iter()
-        .map(|name| read(&folder().join(format!("{name}.json"))))
+        .map(|name| text_of(&format!("{name}.json")))
         .collect();
 
     for kind in EVIDENCE {
@@ -160,10 +147,10 @@ fn dense(text: &str) -> String {
 
 #[test]
 fn every_block_of_the_page_stands_in_a_file() {
-    let page = read(&spec().join("certificates.md"));
+    let page = read("spec/certificates.md");
     let files: Vec<String> = names()
         .iter()
-        .map(|name| dense(&read(&folder().join(format!("{name}.json")))))
+        .map(|name| dense(&text_of(&format!("{name}.json"))))
         .collect();
 
     let mut blocks = 0;

@@ -5,7 +5,7 @@
 //! The truth is the tables of this file. A new dependency, a float in a part that decides, a second
 //! elimination or a test file that no binary names differs from its table and fails here.
 
-use crate::root;
+use crate::{read, root};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -71,7 +71,7 @@ fn sources(part: &str) -> Vec<Source> {
         if path.is_dir() {
             stack.extend(entries(&path));
         } else if path.extension().is_some_and(|extension| extension == "rs") && path.exists() {
-            let text = std::fs::read_to_string(&path).unwrap();
+            let text = read(&path);
             let code = text.split("#[cfg(test)]\nmod tests").next();
             let code = code.unwrap_or_default().to_string();
             list.push(Source { path, code });
@@ -104,7 +104,7 @@ fn is_for_tests(path: &Path) -> bool {
     ];
     let parent = candidates.into_iter().find(|file| file.is_file()).unwrap();
 
-    let text = std::fs::read_to_string(parent).unwrap();
+    let text = read(parent);
     text.contains("#[cfg(test)]\nmod tests;")
 }
 
@@ -134,7 +134,7 @@ const MAY_DEPEND: [(&str, &str); 10] = [
 fn manifests_follow_the_house() {
     for (name, allowed) in MAY_DEPEND {
         let file = root().join("crates").join(name).join("Cargo.toml");
-        let manifest = std::fs::read_to_string(file).unwrap();
+        let manifest = read(file);
         assert!(
             manifest.contains("[lints]\nworkspace = true"),
             "{name} has lints of its own"
@@ -200,7 +200,7 @@ fn comments_have_at_most_a_hundred_columns() {
 
     let mut too_long = Vec::new();
     for file in files {
-        let text = std::fs::read_to_string(&file).unwrap();
+        let text = read(&file);
         for (number, line) in text.lines().enumerate() {
             if is_wide_comment(line) {
                 too_long.push(format!("{}:{}", file.display(), number + 1));
@@ -305,7 +305,7 @@ fn floats_stay_out_of_the_deciding_rooms() {
             );
         }
 
-        let module = std::fs::read_to_string(sources_of(part).join("lib.rs")).unwrap();
+        let module = read(sources_of(part).join("lib.rs"));
         assert!(
             module.contains("#![deny(clippy::float_arithmetic)]"),
             "{part} does not deny float arithmetic"
@@ -330,7 +330,7 @@ fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
             continue;
         }
 
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = read(&path);
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
 
@@ -362,7 +362,6 @@ fn version_after(text: &str, prefix: &str) -> [u32; 2] {
 /// The manifests, the pages and the image speak of the same Rust.
 #[test]
 fn one_oldest_rust_is_stated_everywhere() {
-    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
     let oldest = version_after(&read("Cargo.toml"), "rust-version = \"");
 
     assert_eq!(
@@ -402,7 +401,7 @@ fn no_name_of_a_type_is_declared_twice() {
             continue;
         }
 
-        let text = std::fs::read_to_string(&file).unwrap();
+        let text = read(&file);
         let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
         for (index, line) in code.lines().enumerate() {
             if let Some(name) = declared_type(line) {

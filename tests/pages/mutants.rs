@@ -4,11 +4,7 @@
 //! The truth is the source files. An entry whose function or operator is gone, or a score below the
 //! least one, fails here.
 
-use crate::root;
-
-fn read(name: &str) -> String {
-    std::fs::read_to_string(root().join("spec/mutants").join(name)).unwrap()
-}
+use crate::{read, root};
 
 /// Mutants said to be equivalent: their file, the change, how many of them.
 struct Listed {
@@ -27,7 +23,7 @@ struct Group {
 fn listed() -> Vec<Group> {
     let mut groups = Vec::new();
     let mut mutants = Vec::new();
-    let text = read("equivalent.txt");
+    let text = read("spec/mutants/equivalent.txt");
 
     for line in text.lines() {
         if line.starts_with('#') || line.trim().is_empty() {
@@ -121,7 +117,7 @@ struct Score {
 
 /// The rows of the table of scores in `spec/mutants/score.md`.
 fn scores() -> Vec<Score> {
-    let text = read("score.md");
+    let text = read("spec/mutants/score.md");
     let (_, after) = text.split_once("<!-- score -->").unwrap();
     let (table, _) = after.split_once("<!-- end of score -->").unwrap();
 

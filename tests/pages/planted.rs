@@ -5,7 +5,7 @@
 //! The truth is the source files. A bug whose place has changed, whose test is gone, or that the
 //! report does not mention fails here.
 
-use crate::root;
+use crate::{read, root};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -28,8 +28,8 @@ struct Hunk {
     after: String,
 }
 
-fn read(path: &Path) -> Bug {
-    let text = std::fs::read_to_string(path).unwrap();
+fn bug_of(path: &Path) -> Bug {
+    let text = read(path);
     let name = path.file_stem().unwrap().to_string_lossy().into_owned();
     assert!(!field(&name, &text, "bug: ").is_empty());
 
@@ -77,13 +77,13 @@ fn bugs() -> Vec<Bug> {
     let mut files: Vec<PathBuf> = folder.map(|file| file.unwrap().path()).collect();
     files.sort();
 
-    files.iter().map(|file| read(file)).collect()
+    files.iter().map(|file| bug_of(file)).collect()
 }
 
 #[test]
 fn every_bug_still_applies() {
     for bug in bugs() {
-        let source = std::fs::read_to_string(root().join(&bug.file)).unwrap();
+        let source = read(&bug.file);
         assert!(!bug.hunks.is_empty(), "{}", bug.name);
 
         for hunk in &bug.hunks {
@@ -103,7 +103,7 @@ fn every_bug_names_a_test_that_exists() {
     for bug in bugs() {
         let (file, name) = bug.test.split_once("::").unwrap_or((&bug.test, ""));
         let function = name.rsplit("::").next().unwrap();
-        let source = std::fs::read_to_string(root().join(file)).unwrap();
+        let source = read(file);
         let is_page = file.starts_with("tests/transcripts/");
 
         assert!(
@@ -143,7 +143,7 @@ fn there_are_bugs_in_every_room_that_decides() {
 /// The report speaks of these bugs, and none of them survived.
 #[test]
 fn the_report_lists_every_bug() {
-    let report = std::fs::read_to_string(root().join("spec/planted/report.md")).unwrap();
+    let report = read("spec/planted/report.md");
     for bug in bugs() {
         let quoted = format!("`{}`", bug.name);
         let row = report

@@ -4,12 +4,8 @@
 //! The truth is `conformance.md` and the README. A new guarantee without a trace, a new row that
 //! nothing is traced to, or a reference to something that is gone fails here.
 
+use crate::{read, root};
 use std::collections::BTreeSet;
-use std::path::Path;
-
-fn read(path: &str) -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
-}
 
 /// The cells of each row of the tables below a heading.
 fn rows(page: &str, heading: &str) -> Vec<Vec<String>> {
@@ -152,7 +148,7 @@ fn paths_named_in_the_readme_exist() {
     for path in paths {
         let file = path.split("::").next().unwrap();
         let file = file.trim_end_matches([',', '.', ';', ':']);
-        let exists = Path::new(env!("CARGO_MANIFEST_DIR")).join(file).exists();
+        let exists = root().join(file).exists();
 
         assert!(exists, "{file}");
 
