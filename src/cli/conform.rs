@@ -283,7 +283,8 @@ fn print_list(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
         for draft in &group.drafts {
             let case = Case::answer(draft, args.as_pencil, &Watch::nobody())?;
             if case.has_any(&only) {
-                let words = case.flag_words().join(" ");
+                let words: Vec<&str> = case.flags.iter().map(|flag| flag.word()).collect();
+                let words = words.join(" ");
                 print(&format!("{}  [{words}]  {}\n", case.id, case.comment))?;
             }
         }

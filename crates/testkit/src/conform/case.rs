@@ -238,25 +238,20 @@ impl Case {
         let mut case = json!({
             "id": self.id,
             "comment": self.comment,
-            "flags": self.flag_words(),
+            "flags": self.flags,
             "problem": problem,
             "answer": self.answer_json(),
         });
         if let CaseAnswer::Certified(answer) = &self.answer {
-            case["completeness"] = json!(answer.completeness.word());
+            case["completeness"] = json!(answer.completeness);
             if let Some(digest) = &answer.certificate {
                 case["certificate_sha256"] = json!(digest);
             }
         }
         if let Some(difficulty) = self.difficulty {
-            case["difficulty"] = json!(difficulty.word());
+            case["difficulty"] = json!(difficulty);
         }
         case
-    }
-
-    /// Its flags as they stand in files.
-    pub fn flag_words(&self) -> Vec<&'static str> {
-        self.flags.iter().map(|flag| flag.word()).collect()
     }
 
     /// Has it one of these flags? With none given, every case has.

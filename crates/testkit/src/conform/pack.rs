@@ -137,7 +137,7 @@ impl Counts {
         for (bug, count) in &self.bugs {
             let entry = json!({
                 "count": count,
-                "label": bug.expected().word(),
+                "label": bug.expected(),
                 "reason": bug.note(),
             });
             bugs.insert(bug.word().into(), entry);
@@ -184,8 +184,8 @@ impl CaseLine {
         for answer in case.wrong_answers() {
             bugs.push(answer.bug);
             wrong.push(json!({
-                "bug": answer.bug.word(),
-                "label": answer.bug.expected().word(),
+                "bug": answer.bug,
+                "label": answer.bug.expected(),
                 "reason": answer.bug.note(),
                 "report": answer.report,
             }));

@@ -10,7 +10,8 @@ use super::judge::Label;
 use super::pack::PackName;
 use super::run::CaseOutcome;
 use mceip_engine::report::Table;
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// The format of the JSON of a run.
@@ -30,7 +31,7 @@ pub struct RunHead<'a> {
 }
 
 /// How many cases are correct, beside a program that always answers that there is nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct ConformScore {
     /// Cases that are correct.
     pub correct: usize,
@@ -220,15 +221,6 @@ impl Summary {
 
     /// The same for programs, with every case.
     pub fn json(&self, head: &RunHead<'_>) -> Value {
-        let mut flags = Map::new();
-        for (flag, counts) in &self.flags {
-            flags.insert(flag.word().to_string(), counts_json(counts));
-        }
-        let mut difficulties = Map::new();
-        for (difficulty, counts) in &self.difficulties {
-            difficulties.insert(difficulty.word().to_string(), counts_json(counts));
-        }
-
         let failures: Vec<Value> = self.failures().map(failure_json).collect();
         let tier = head.pack.tier;
         let results = self
@@ -243,15 +235,10 @@ impl Summary {
             "command": head.command,
             "settings": head.settings,
             "cases": self.cases,
-            "score": {
-                "correct": self.score.correct,
-                "always_none": self.score.always_none,
-                "with_solutions": self.score.with_solutions,
-                "correct_with_solutions": self.score.correct_with_solutions,
-            },
-            "labels": counts_json(&self.labels),
-            "flags": flags,
-            "difficulties": difficulties,
+            "score": self.score,
+            "labels": self.labels,
+            "flags": self.flags,
+            "difficulties": self.difficulties,
             "failures": failures,
             "results": results,
         })
@@ -276,32 +263,23 @@ fn escaped(text: &str) -> String {
         .replace('<', "&lt;")
 }
 
-/// Counts by the words of their labels.
-fn counts_json(counts: &BTreeMap<Label, usize>) -> Value {
-    let mut out = Map::new();
-    for (label, count) in counts {
-        out.insert(label.word().to_string(), json!(count));
-    }
-    Value::Object(out)
-}
-
 /// What came of a case.
 fn result_json(outcome: &CaseOutcome, tier: u8) -> Value {
     let mut out = json!({
         "case": outcome.id,
         "tier": tier,
         "problem_sha256": outcome.problem_sha256,
-        "label": outcome.judgement.label.word(),
+        "label": outcome.judgement.label,
         "seconds": (outcome.seconds * 1e6).round() / 1e6,
         "found": outcome.judgement.found,
         "expected": outcome.expected,
-        "flags": outcome.flags.iter().map(|flag| flag.word()).collect::<Vec<_>>(),
+        "flags": outcome.flags,
     });
     if let Some(difficulty) = outcome.difficulty {
-        out["difficulty"] = json!(difficulty.word());
+        out["difficulty"] = json!(difficulty);
     }
     if let Some(completeness) = outcome.completeness {
-        out["completeness"] = json!(completeness.word());
+        out["completeness"] = json!(completeness);
         out["unlisted"] = json!(outcome.judgement.unlisted);
     }
     out
@@ -309,11 +287,10 @@ fn result_json(outcome: &CaseOutcome, tier: u8) -> Value {
 
 /// A case that is not correct.
 fn failure_json(failure: &CaseOutcome) -> Value {
-    let flags: Vec<&str> = failure.flags.iter().map(|f| f.word()).collect();
     json!({
         "case": failure.id,
-        "flags": flags,
-        "label": failure.judgement.label.word(),
+        "flags": failure.flags,
+        "label": failure.judgement.label,
         "detail": failure.judgement.detail,
     })
 }
