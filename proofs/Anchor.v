@@ -28,20 +28,8 @@
    Page: spec/certificates.md, 5.14.
    Rust: crates/check/src/cover/condensed.rs, expanded.rs, family.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
-From Mceip Require Import Existence Pinned.
-From Mceip Require Import Places Condensation Pencil Claim Norms Elimination Series.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf
+  Existence Pinned Places Condensation Pencil Claim Norms Elimination Series.
 
 (* The center p/q, u, W, V, and a positive factor for each row of a complementarity variable. *)
 Record anchor := Anchor {

@@ -16,20 +16,8 @@
    Page: spec/certificates.md, 5.14.
    Rust: crates/check/src/cover/expanded.rs, family.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf.
-From Mceip Require Import Existence Pinned Cover.
-From Mceip Require Import Condensation Pencil Claim Complete Norms Elimination Series Anchor.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf
+  Existence Pinned Cover Condensation Pencil Claim Complete Norms Elimination Series Anchor.
 
 Lemma floor_bounds x g : (0 <? g)%Z -> (x / g * g <=? x)%Z && (x <=? (x / g + 1) * g)%Z.
 Proof.

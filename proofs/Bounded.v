@@ -13,18 +13,7 @@
 
    Page: spec/certificates.md, 5.14 (sigma).  Rust: crates/check/src/cover/psd.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Covered.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Covered.
 
 (* A sparse row: column and entry.  Entries of one column are summed. *)
 Definition sparse_row := seq (nat * Z).

@@ -17,18 +17,7 @@
 
    Page: spec/certificates.md, 5.3.  Rust: crates/check/src/exact_solution.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root Existence Condensation Pencil.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Root Existence Condensation Pencil.
 
 Definition polynomial := seq Z.
 

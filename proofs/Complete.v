@@ -27,19 +27,8 @@
    Page: spec/certificates.md, 5.6, 5.14, 5.15.
    Rust: crates/check/src/lib.rs, cover/mod.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
+  Cover Number Condensation Pencil Whole Claim EnclosedClaim.
 
 (* A claim about the pencil: with polynomials, or in a box. *)
 Inductive solution_claim := ExactClaim of claim | BoxClaim of enclosed_claim.

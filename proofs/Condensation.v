@@ -24,19 +24,8 @@
    Page: spec/certificates.md, 5.14 (the linear family at center 0).
    Rust: crates/check/src/cover/condensed.rs, expanded.rs, psd.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence Norms Elimination.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Root Existence Norms Elimination.
 From Mceip Require Export Bounded.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
 
 (* Sparse rows of F; one list over the free variables for each column of G and for each row of H_a
    and H_b; dense D_a and D_b. *)

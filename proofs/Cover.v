@@ -29,18 +29,8 @@
    Page: spec/certificates.md, 5.6 and 5.15.
    Rust: crates/check/src/cover/mod.rs, found.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf
+  Pinned.
 
 Definition interval := (point * point)%type.
 

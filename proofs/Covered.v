@@ -18,18 +18,7 @@
    Page: spec/certificates.md, 5.14 ("S is covered by L"), 5.9, 5.10.
    Rust: crates/check/src/cover/psd.rs, enclosed_definite.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums.
 
 (* Sums, conjunctions and maps over a list whose elements are counted from k. *)
 Fixpoint sum_from T (f : nat -> T -> Z) (k : nat) (l : seq T) : Z :=

@@ -16,19 +16,8 @@
 
    Page: spec/certificates.md, 5.12 and 5.15.  Rust: crates/check/src/cover/support.rs, found.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Cover Number Condensation Pencil Whole Complete System.
-From Mceip Require Import Support Families Varying.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Cover Number Condensation Pencil Whole Complete
+  System Support Families Varying.
 
 (* What takes the place of the free variables, and the tree. *)
 Inductive cover :=

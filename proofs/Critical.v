@@ -31,20 +31,8 @@
    Pages: spec/certificates.md, 5.18; spec/zero-reaction.md, Z.3 (frictions) and Z.4.
    Rust: crates/check/src/critical.rs, cover/critical.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite Cover Condensation.
-From Mceip Require Import Pencil Whole Complete System ZeroReaction ZeroPencil.
-From Mceip Require Import ZeroPower Boxes Regular.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Cover
+  Condensation Pencil Whole Complete System ZeroReaction ZeroPencil ZeroPower Boxes Regular.
 
 Inductive critical_leaf :=
   | BoxFarkas of seq Z

@@ -16,18 +16,7 @@
    taking it off entry by entry, as here, is enough because x >= 0.
    Rust: crates/check/src/cover/definite.rs, enclosed_definite.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered.
 
 Record factor := Factor { weights : seq Z; factor_rows : matrix }.
 

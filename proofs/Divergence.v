@@ -22,15 +22,7 @@
 
    Page: spec/problem.md, 1.3; spec/errata.md, X14. *)
 
-From mathcomp Require Import all_ssreflect all_algebra ring.
-From Mceip Require Import Reduction.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Reduction.
 
 (* Properties that hold from 0 up to some positive number. *)
 Section Small.

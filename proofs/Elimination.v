@@ -18,18 +18,7 @@
 
    Page: spec/certificates.md, 5.14.  Rust: crates/check/src/cover/condensed.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra ring.
-From Mceip Require Import Integers Sums Norms Existence.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Norms Existence.
 
 Section Elimination.
 

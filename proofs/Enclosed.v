@@ -23,18 +23,7 @@
    Page: spec/certificates.md, 5.1 and 5.7.
    Rust: crates/check/src/cover/family.rs, ends.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree.
 
 Record enclosed := Enclosed {
   size_of : nat;

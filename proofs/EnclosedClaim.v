@@ -39,19 +39,8 @@
 
    Page: spec/certificates.md, 5.5.  Rust: crates/check/src/enclosed_solution.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Root Existence RootLeaf.
-From Mceip Require Import Condensation Pencil Claim.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Root Existence RootLeaf
+  Condensation Pencil Claim.
 
 (* The vectors have an entry, the matrix a row for each variable of the pencil; the rows of Y have
    an entry for each variable of K, in its order, and are empty off K. *)

@@ -23,18 +23,7 @@
 
    Page: spec/certificates.md, 5.21; the theorem of stability. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra ring.
-From Mceip Require Import Integers Sums Norms Existence Elimination.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Norms Existence Elimination.
 
 Section Times.
 

@@ -25,19 +25,8 @@
 
    Page: spec/certificates.md, 5.20.  Rust: crates/check/src/equilibrium.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Covered Bounded Condensation EnclosedClaim System Rational.
-From Mceip Require Import Statement Integral.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Covered Bounded Condensation EnclosedClaim System
+  Rational Statement Integral.
 
 Inductive equilibrium_evidence :=
   | ExactAt of seq Z

@@ -15,18 +15,7 @@
    Page: spec/certificates.md, 5.11 ("why it is sound").
    Rust: crates/check/src/cover/root.rs (outcome "solution"). *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Root.
 
 Section Roots.
 

@@ -21,19 +21,8 @@
    Page: spec/certificates.md, 5.12 (yields) and 5.15.
    Rust: crates/check/src/cover/support.rs, found.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim Complete Signs Support System.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
+  Cover Number Condensation Pencil Whole Claim Complete Signs Support System.
 
 (* A place of a support leaf, with the region of the leaf. *)
 Definition family := (region * holding)%type.

@@ -8,17 +8,7 @@
    Page: spec/certificates.md, 5.1 (the signs of results are those in exact arithmetic).
    Rust: crates/exact (integers); nothing here is a step of the checker. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base.
 
 (* A matrix of integers is the list of its rows; entries outside are 0. *)
 Definition matrix := seq (seq Z).

@@ -10,19 +10,8 @@
 
    Page: spec/certificates.md, 5.1. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Cover Bounded Condensation Pencil System Signs Support.
-From Mceip Require Import Families ZeroReaction ZeroPencil PlainMcp Points Rational Statement.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Cover Bounded Condensation Pencil System Signs
+  Support Families ZeroReaction ZeroPencil PlainMcp Points Rational Statement.
 
 (* Degrees of freedom of particles. *)
 

@@ -20,18 +20,7 @@
 
    Page: spec/certificates.md, 5.4.  Rust: crates/check/src/lifted_solution.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Condensation Pencil Claim System.
 
 (* [motion_claim] has the polynomials v as its components.  Reductions of v_d are those of its
    components; of w_d and of ((K + t M) v - w)_d, one for each degree of freedom; of n'v, S t'v and

@@ -8,18 +8,7 @@
    Page: spec/certificates.md, 5.14 (bounds of the remainders).
    Rust: crates/check/src/cover/expanded.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra ring.
-From Mceip Require Import Integers Sums.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums.
 
 Section Norms.
 

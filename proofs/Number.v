@@ -22,18 +22,7 @@
    Page: spec/certificates.md, 5.15 (solutions yielded twice).
    Rust: crates/check/src/cover/found.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed RootLeaf Pinned Cover.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed RootLeaf Pinned Cover.
 
 Section Checker.
 

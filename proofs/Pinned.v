@@ -25,18 +25,7 @@
    Page: spec/certificates.md, 5.7 (chord), 5.11, outcomes "claim" and "infinity".
    Rust: crates/check/src/cover/root.rs, root/. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root Existence RootLeaf.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Root Existence RootLeaf.
 
 Record pinning := Pinning {
   pin_pivot : nat;

@@ -14,18 +14,7 @@
 
    Page: spec/certificates.md, 5.17.  Rust: crates/mcp (certificate of a plain problem). *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Condensation.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Condensation.
 
 (* Numerator and denominator. *)
 Definition bound := option (Z * Z)%type.

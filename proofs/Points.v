@@ -27,19 +27,8 @@
 
    Page: spec/certificates.md, 5.15 (Infinity).  Rust: src/cli/infinity.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Cover Condensation Pencil.
-From Mceip Require Import Whole Complete System Signs Support Families Varying Covers.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Cover Condensation
+  Pencil Whole Complete System Signs Support Families Varying Covers.
 
 Section Checker.
 

@@ -23,18 +23,7 @@
 
    Page: spec/certificates.md, 5.19.  Rust: crates/check/src/cover/presence.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root Existence RootLeaf Boxes Regular.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Root Existence RootLeaf Boxes Regular.
 
 Record presence := Presence {
   presence_box : regular;

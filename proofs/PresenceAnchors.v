@@ -18,21 +18,9 @@
 
    Page: spec/certificates.md, 5.19.  Rust: crates/check/src/presence.rs, cover/presence.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Farkas Covered Definite RootLeaf Pinned Cover.
-From Mceip Require Import Condensation Pencil Whole Complete System Norms Elimination.
-From Mceip Require Import Series Anchor AnchorLeaf Varying ZeroReaction ZeroPencil Boxes Regular.
-From Mceip Require Import Critical CriticalAnchors Presence.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite RootLeaf Pinned
+  Cover Condensation Pencil Whole Complete System Norms Elimination Series Anchor AnchorLeaf Varying
+  ZeroReaction ZeroPencil Boxes Regular Critical CriticalAnchors Presence.
 
 Record presence_piece := PresencePiece {
   piece_end : point;

@@ -26,14 +26,7 @@
    Pages: spec/reduction.md (2.1 to 2.4), spec/solver.md (P1, P2, R1).
    Rust: crates/model/src/reduction/, crates/check/src/pencil.rs. *)
 
-From mathcomp Require Import all_ssreflect all_algebra.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-Local Open Scope ring_scope.
+From Mceip Require Import Base.
 
 Section Reduction.
 

@@ -25,18 +25,7 @@
 
    Page: spec/certificates.md, 5.18.  Rust: crates/check/src/cover/critical.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root RootLeaf Claim Series Boxes.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Root RootLeaf Claim Series Boxes.
 
 (* U and V begin with the component at the pivot; rows and columns of Y are those of K. *)
 Record regular := Regular {

@@ -30,18 +30,7 @@
    Page: spec/certificates.md, 5.11, steps 1 to 3.  Step 3 there (monotone) is replaced by 2.
    Rust: crates/check/src/cover/root.rs, root/. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed.
 
 (* Y, u at the lower and at the upper end, eps. *)
 Record box := Box { inverse : matrix; unit_low : Z; unit_high : Z; width : Z }.

@@ -31,18 +31,7 @@
    Page: spec/certificates.md, 5.7, 5.11 (steps 4 and 5), 5.14.
    Rust: crates/check/src/cover/root.rs, root/, family.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Root Existence.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Root Existence.
 
 Record isolation := Isolation {
   pivot : nat;

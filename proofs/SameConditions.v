@@ -9,19 +9,8 @@
    satisfy (9) of Reduction.v.  The friction factors are 1 there: the normal of a particle has its
    factor as its length. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree System.
+From Mceip Require Import Base Integers Sums Tree System.
 From Mceip Require Reduction.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
 
 Section Same.
 

@@ -16,18 +16,7 @@
 
    Page: spec/certificates.md, 5.14.  Rust: crates/check/src/cover/expanded.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Covered Condensation Norms Claim.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Covered Condensation Norms Claim.
 
 Section Lists.
 

@@ -27,18 +27,7 @@
    Page: spec/certificates.md, 5.12, obligations 1 and 2.
    Rust: crates/check/src/cover/rootless.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Existence Pencil Claim.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Existence Pencil Claim.
 
 Record value := Value {
   value_poly : polynomial;

@@ -11,19 +11,8 @@
 
    Page: spec/certificates.md, 5.21.  Rust: crates/check/src/stability.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Covered Norms Elimination Condensation Pencil System.
-From Mceip Require Import ZeroReaction ZeroPencil Energy Rational Statement Integral Stability.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Covered Norms Elimination Condensation Pencil
+  System ZeroReaction ZeroPencil Energy Rational Statement Integral Stability.
 
 (* The problem as it is written. *)
 

@@ -30,17 +30,8 @@
 
    Pages: spec/certificates.md, 5.1, 5.15, 5.20; spec/zero-reaction.md, Z.1. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From Mceip Require Import Integers Sums Tree Cover Pencil System Signs Support Families.
-From Mceip Require Import ZeroReaction PlainMcp Points Rational.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Cover Pencil System Signs Support Families
+  ZeroReaction PlainMcp Points Rational.
 
 (* Each solution listed lies in the region that is yielded for it.  Every other one belongs to a
    family or lies in an open region. *)

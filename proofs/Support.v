@@ -24,18 +24,8 @@
 
    Page: spec/certificates.md, 5.12.  Rust: crates/check/src/cover/support.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Existence Condensation Pencil Claim Signs.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Existence Condensation Pencil Claim
+  Signs.
 
 Inductive claimed_sign := IsZero | IsPositive | IsNegative.
 

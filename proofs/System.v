@@ -39,19 +39,8 @@
 
    Page: spec/certificates.md, 5.1; spec/reduction.md.  Rust: crates/check/src/pencil.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover.
-From Mceip Require Import Places Number Condensation Pencil Whole Claim EnclosedClaim Complete.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover
+  Places Number Condensation Pencil Whole Claim EnclosedClaim Complete.
 
 (* A vector over the two degrees of freedom of a particle. *)
 Definition planar := (Z * Z)%type.

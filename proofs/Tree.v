@@ -19,18 +19,7 @@
    Pages: spec/certificates.md, 5.6 (trees), 5.18.
    Rust: crates/check/src/cover/walk.rs, region.rs, critical.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers.
 
 Definition point := (Z * Z)%type.
 

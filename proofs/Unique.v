@@ -22,19 +22,8 @@
    Page: spec/certificates.md, 5.9 ("What more it says").  Rust: crates/check/src/lib.rs,
    [has_unique_rates]. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Condensation Pencil System.
-From Mceip Require Import ZeroReaction ZeroPencil Rational Statement Integral.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Condensation Pencil
+  System ZeroReaction ZeroPencil Rational Statement Integral.
 
 Section Checker.
 

@@ -25,20 +25,8 @@
    Page: spec/certificates.md, 5.6, 5.11, 5.14, 5.15.
    Rust: crates/check/src/cover/condensed.rs, expanded.rs, family.rs, root.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim Complete System Series.
-From Mceip Require Import Anchor AnchorLeaf.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
+  Cover Number Condensation Pencil Whole Claim Complete System Series Anchor AnchorLeaf.
 
 (* Bounds of A_ff and of B_ff; anchors, each with "is it reversed". *)
 Record anchoring := Anchoring {

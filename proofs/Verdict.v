@@ -11,23 +11,10 @@
 
    Pages: spec/certificates.md, 5.15 to 5.21.  Called by program/main.ml. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil.
-From Mceip Require Import Whole Claim EnclosedClaim Complete System Signs Support Families.
-From Mceip Require Import Lifted ZeroReaction PlainMcp Varying Covers ZeroPencil ZeroEnclosed.
-From Mceip Require Import ZeroComplete Boxes Critical CriticalAnchors Presence PresenceAnchors.
-From Mceip Require Import Points Rational Statement Integral Equilibrium Unique.
-From Mceip Require Import Stability Stable.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil
+  Whole Claim EnclosedClaim Complete System Signs Support Families Lifted ZeroReaction PlainMcp
+  Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical CriticalAnchors Presence
+  PresenceAnchors Points Rational Statement Integral Equilibrium Unique Stability Stable.
 
 (* A claim about the pencil; a motion with its forces; a box around a motion with particles of zero
    reaction. *)

@@ -20,18 +20,7 @@
    Pages: spec/certificates.md, 5.10 and 5.13.
    Rust: crates/check/src/cover/ldl.rs, psd.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Condensation Pencil.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Condensation Pencil.
 
 (* Weights and rows; or a multiplier and rows that begin late. *)
 Inductive whole_factor :=

@@ -28,21 +28,9 @@
    Page: spec/certificates.md, 5.6, 5.11, 5.15; spec/zero-reaction.md, Z.3 (covers).
    Rust: crates/check/src/cover/walk.rs, root.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs.
-From Mceip Require Import Support System Families Varying Covers ZeroReaction.
-From Mceip Require Import ZeroPencil ZeroEnclosed.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
+  Cover Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs Support System Families
+  Varying Covers ZeroReaction ZeroPencil ZeroEnclosed.
 
 (* A claim that stands beside a region. *)
 Record pinned_box := PinnedBox {

@@ -16,19 +16,8 @@
    Pages: spec/certificates.md, 5.5; spec/zero-reaction.md, Z.3.
    Rust: crates/check/src/enclosed_solution.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Bounded Pencil EnclosedClaim System ZeroReaction.
-From Mceip Require Import ZeroPencil.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Bounded Pencil EnclosedClaim System ZeroReaction
+  ZeroPencil.
 
 Section Checker.
 

@@ -32,19 +32,8 @@
    Pages: spec/certificates.md, 5.1 and 5.3; spec/zero-reaction.md, Z.3.
    Rust: crates/model/src/reduction/eliminate.rs, crates/check/src/pencil.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System.
-From Mceip Require Import ZeroReaction.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Condensation Pencil Claim System
+  ZeroReaction.
 
 Section Checker.
 

@@ -11,19 +11,8 @@
 
    Page: spec/zero-reaction.md, Z.2. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System Lifted.
-From Mceip Require Import ZeroReaction.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Condensation Pencil Claim System Lifted
+  ZeroReaction.
 
 Section Power.
 

@@ -27,18 +27,7 @@
    Pages: spec/zero-reaction.md, Z.1 and Z.3; spec/certificates.md, 5.3 and 5.4.
    Rust: crates/check/src/lifted_solution.rs, crates/model/src/reduction/eliminate.rs. *)
 
-From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra zify ssrZ ring.
-From Mceip Require Import Integers Sums Tree Enclosed Condensation Pencil Claim System Lifted.
-
-Set Implicit Arguments.
-Unset Strict Implicit.
-Unset Printing Implicit Defensive.
-
-Import Order.Theory GRing.Theory Num.Theory.
-
-Delimit Scope Z_scope with Z.
-Local Open Scope ring_scope.
+From Mceip Require Import Base Integers Sums Tree Enclosed Condensation Pencil Claim System Lifted.
 
 (* The degrees of freedom of z particles are not free in [without_zero].  The sign of a z particle
    is not used. *)
