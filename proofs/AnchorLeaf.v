@@ -247,8 +247,8 @@ have diff m k : m \in fi -> k \in fi -> F_at Q a (d_of u) m k - F_at Q a (d_of u
 have [x xE x_le] := remainder_difference s_low_gt0 (below_at_u u0) (below_at_u v0)
   (F_symmetric a wf bounded_a bounded_b (d_of u')) (F1_symmetric R a wf bounded_b) diff
   (fun m Hm => drift_bound R wf expanded Hm) (drift_ge0 R expanded)
-  (fun k => quotient_valueE l_series (d_of u) (d_of u') k i)
-  (fun k => quotient_valueE r_series (d_of u) (d_of u') k j)
+  (fun k => slopeE (poly_of l_series k i) (d_of u) (d_of u'))
+  (fun k => slopeE (poly_of r_series k j) (d_of u) (d_of u'))
   (series_norm i small_l (d_bounded v0 v1)) (series_norm j small_r (d_bounded u0 u1))
   (series_difference i small_l (d_bounded u0 u1) (d_bounded v0 v1))
   (series_difference j small_r (d_bounded u0 u1) (d_bounded v0 v1)).

@@ -64,42 +64,58 @@ Fixpoint horner_interval (a b d : Z) (p : polynomial) : Z * Z * Z :=
        (if 0 <=? hi then b * hi else a * hi) + constant, power * d)
   end.
 
-Variables (Q : pencil) (k : claim).
+Definition low_on a b d p := (horner_interval a b d p).1.1.
+Definition high_on a b d p := (horner_interval a b d p).1.2.
+
+(* p has opposite signs at a/d and b/d. *)
+Definition changes_sign a b d p :=
+  (high_on a a d p <=? 0) && (0 <=? low_on b b d p) ||
+  (0 <=? low_on a a d p) && (high_on b b d p <=? 0).
+
+Definition same_poly (p q : polynomial) := zero_poly (add_poly p (scale_poly (-1) q)).
+
+Definition reduces_by p g (w : reduction) :=
+  (0 <? multiplier w) &&
+  same_poly (scale_poly (multiplier w) g) (add_poly (mul_poly p (quotient w)) (rest w)).
+
+(* c x + y *)
+Fixpoint add_multiple (c : Z) (x y : seq Z) : seq Z :=
+  match x, y with
+  | [::], _ => y
+  | a :: x', [::] => c * a :: add_multiple c x' [::]
+  | a :: x', b :: y' => c * a + b :: add_multiple c x' y'
+  end.
+
+(* A sparse row times the matrix of these rows, or times a vector of polynomials. *)
+Definition combine_row (x : seq polynomial) (row : sparse_row) : polynomial :=
+  foldr (fun e sum => add_multiple e.2 (nth [::] x e.1) sum) [::] row.
+
+Variable Q : pencil.
+
+(* y_i as a polynomial in t. *)
+Definition row_poly x i : polynomial :=
+  add_poly (combine_row x (row_a Q i)) (0 :: combine_row x (row_b Q i)).
+
+Variable k : claim.
 
 Notation a := (claim_from k).
 Notation b := (claim_to k).
 Notation d := (claim_denominator k).
 
-Definition lower_value x y p := (horner_interval x y d p).1.1.
-Definition upper_value x y p := (horner_interval x y d p).1.2.
-
-Definition modulus_changes_sign :=
-  let p := modulus k in
-  (upper_value a a p <=? 0) && (0 <=? lower_value b b p) ||
-  (0 <=? lower_value a a p) && (upper_value b b p <=? 0).
-
 (* 0 <= a/d <= b/d, with a root of the modulus between them. *)
-Definition root_interval := [&& 0 <=? a, a <=? b, 0 <? d & modulus_changes_sign].
+Definition root_interval := [&& 0 <=? a, a <=? b, 0 <? d & changes_sign a b d (modulus k)].
 
 Definition no_reduction := Reduction 1 [::] [::].
 
-Definition reduces (g : polynomial) (w : reduction) :=
-  (0 <? multiplier w) &&
-  zero_poly (add_poly (scale_poly (multiplier w) g)
-               (scale_poly (-1) (add_poly (mul_poly (modulus k) (quotient w)) (rest w)))).
+Notation reduces := (reduces_by (modulus k)).
 
 Definition shows_zero g w := reduces g w && zero_poly (rest w).
-Definition shows_positive g w := reduces g w && (0 <? lower_value a b (rest w)).
-Definition shows_negative g w := reduces g w && (upper_value a b (rest w) <? 0).
+Definition shows_positive g w := reduces g w && (0 <? low_on a b d (rest w)).
+Definition shows_negative g w := reduces g w && (high_on a b d (rest w) <? 0).
 
 Definition component i := nth [::] (components k) i.
 
-Definition combine_row (row : sparse_row) : polynomial :=
-  foldr (fun e sum => add_poly (scale_poly e.2 (component e.1)) sum) [::] row.
-
-(* y_i as a polynomial in t. *)
-Definition reaction_poly i : polynomial :=
-  add_poly (combine_row (row_a Q i)) (0 :: combine_row (row_b Q i)).
+Definition reaction_poly i := row_poly (components k) i.
 
 Definition component_witness i := nth no_reduction (component_reductions k) i.
 Definition reaction_witness i := nth no_reduction (reaction_reductions k) i.
@@ -134,9 +150,26 @@ case/andP=> /allP ca /allP cb i; rewrite /row_a /row_b; split.
 by have [l|l] := ltnP i (size (rows_b Q)); [apply/cb/mem_nth | rewrite nth_default].
 Qed.
 
+Lemma add_multipleE c x y : add_multiple c x y = add_poly (scale_poly c x) y.
+Proof. by elim: x y => [|a x IH] [|b y] //=; rewrite IH //; case: (x) {IH}. Qed.
+
+Lemma nth_add_multiple a x y p :
+  nth 0%Z (add_multiple a x y) p = (a * nth 0 x p + nth 0 y p)%Z.
+Proof.
+elim: x y p => [|b x IH] [|b' y] [|p] /=; rewrite ?nth_nil ?Z.mul_0_r ?Z.add_0_r //.
+by rewrite IH nth_nil Z.add_0_r.
+Qed.
+
 Section Sound.
 
 Variable R : rcfType.
+
+Lemma nth_combine_row Y row p : toR (nth 0%Z (combine_row Y row) p) =
+  \sum_(e <- row) toR e.2 * toR (nth 0%Z (nth [::] Y e.1) p) :> R.
+Proof.
+elim: row => [|e row IH] /=; first by rewrite big_nil nth_nil.
+by rewrite nth_add_multiple toRD toRM big_cons IH.
+Qed.
 
 (* The value of a polynomial. *)
 Definition eval (p : polynomial) (t : R) := foldr (fun a s => toR a + t * s) 0 p.
@@ -165,6 +198,47 @@ Lemma eval_zero p t : zero_poly p -> eval p t = 0.
 Proof.
 elim: p => //= a p IH /andP[/Z.eqb_spec-> /IH]; rewrite /eval => ->.
 by rewrite toR0 mulr0 addr0.
+Qed.
+
+Lemma same_polyE p q t : same_poly p q -> eval p t = eval q t.
+Proof.
+move=> /(eval_zero t); rewrite eval_add eval_scale -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r.
+by move/eqP; rewrite subr_eq0 => /eqP.
+Qed.
+
+Lemma reduces_byE p g w t : reduces_by p g w -> eval p t = 0 ->
+  0 < toR (multiplier w) :> R /\ toR (multiplier w) * eval g t = eval (rest w) t.
+Proof.
+case/andP=> c0 /(same_polyE t); rewrite eval_scale eval_add eval_mul => -> ->.
+by rewrite mul0r add0r toR_gt0.
+Qed.
+
+(* (p(s) - p(t)) / (s - t) *)
+Fixpoint slope (p : polynomial) s t : R :=
+  if p is _ :: p' then eval p' s + t * slope p' s t else 0.
+
+Lemma slopeE p s t : eval p s - eval p t = (s - t) * slope p s t.
+Proof.
+elim: p => [|c p IH] /=; first by rewrite subr0 mulr0.
+rewrite -/(eval p s) -/(eval p t) mulrDr mulrCA -IH.
+by move: (eval p s) (eval p t) (toR c) => *; ring.
+Qed.
+
+Lemma combine_rowE n x row t : all (fun e => e.1 < n)%N row ->
+  eval (combine_row x row) t = \sum_(j <- iota 0 n) toR (lookup row j) * eval (nth [::] x j) t.
+Proof.
+move=> range; rewrite (sum_lookup _ range); elim: row {range} => [|e row IH] /=.
+  by rewrite big_nil.
+by rewrite big_cons add_multipleE eval_add eval_scale IH.
+Qed.
+
+Lemma row_polyE Q x t i : columns_in_order Q ->
+  eval (row_poly Q x i) t = reaction Q t (fun j => eval (nth [::] x j) t) i.
+Proof.
+move=> cols; have [ra rb] := columns_in_rows cols i.
+rewrite /row_poly eval_add /= -/(eval _ t) toR0 add0r !(@combine_rowE (order Q)) //.
+rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
+by rewrite /a_entry /b_entry mulrDl mulrA.
 Qed.
 
 (* The polynomial of the algebra library. *)
@@ -215,6 +289,43 @@ have := product_upper a0 at_ tb le_hi; rewrite -(@toR_ge0 R).
 by case: (0 <= toR hi); rewrite toRM.
 Qed.
 
+(* Signs over an interval. *)
+Lemma interval_signs a b d p t :
+  0 <= toR a :> R -> 0 < toR d :> R -> toR a <= toR d * t -> toR d * t <= toR b ->
+  [/\ (0 <=? low_on a b d p)%Z -> 0 <= eval p t, (high_on a b d p <=? 0)%Z -> eval p t <= 0,
+      (0 <? low_on a b d p)%Z -> 0 < eval p t & (high_on a b d p <? 0)%Z -> eval p t < 0].
+Proof.
+move=> a0 d0 at_ tb; have := horner_interval_sound p a0 at_ tb d0; rewrite /low_on /high_on.
+case: (horner_interval a b d p) => [[lo hi] power] [power0 le_lo le_hi] /=.
+split; rewrite -?(@toR_ge0 R) -?(@toR_le0 R) -?(@toR_gt0 R) -?(@toR_lt0 R) => sign.
+- by rewrite -(pmulr_rge0 _ power0); apply: le_trans le_lo.
+- by rewrite -(pmulr_rle0 _ power0); apply: le_trans sign.
+- by rewrite -(pmulr_rgt0 _ power0); apply: lt_le_trans le_lo.
+- by rewrite -(pmulr_rlt0 _ power0); apply: le_lt_trans sign.
+Qed.
+
+Lemma low_on_gt0 a b d p t : 0 <= toR a :> R -> 0 < toR d :> R -> toR a <= toR d * t ->
+  toR d * t <= toR b -> (0 <? low_on a b d p)%Z -> 0 < eval p t.
+Proof. by move=> a0 d0 at_ tb; case: (interval_signs p a0 d0 at_ tb). Qed.
+
+Lemma root_on a b d p :
+  0 <= toR a :> R -> toR a <= toR b :> R -> 0 < toR d :> R -> changes_sign a b d p ->
+  exists t : R, [/\ toR a <= toR d * t, toR d * t <= toR b & eval p t = 0].
+Proof.
+move=> a0 ab d0 sign; have at_end c : toR d * (toR c / toR d) = toR c :> R.
+  by rewrite mulrC divfK // gt_eqF.
+have signs c : toR a <= toR c :> R -> _ := fun ac => @interval_signs c c d p (toR c / toR d)
+  (le_trans a0 ac) d0 (eq_ind_r (fun v => toR c <= v) (lexx _) (at_end c))
+  (eq_ind_r (fun v => v <= toR c) (lexx _) (at_end c)).
+have [a1 a2 _ _] := signs a (lexx _); have [b1 b2 _ _] := signs b ab.
+have [t /andP[ta_t t_tb] /rootP root_t] :
+    exists2 t, toR a / toR d <= t <= toR b / toR d & root (to_poly p) t.
+  apply: root_between; first by rewrite ler_pmul2r ?invr_gt0.
+  rewrite !horner_to_poly.
+  by case/orP: sign => /andP[s1 s2]; [apply: mulr_le0_ge0 | apply: mulr_ge0_le0]; auto.
+by exists t; rewrite -horner_to_poly -(at_end a) -(at_end b) !ler_pmul2l.
+Qed.
+
 (* Values at the root, for a claim with a root interval. *)
 Section Interval.
 
@@ -226,48 +337,12 @@ Notation b := (claim_to k).
 Notation d := (claim_denominator k).
 
 Lemma interval_parts :
-  [/\ 0 <= toR a :> R, toR a <= toR b :> R, 0 < toR d :> R & modulus_changes_sign k].
+  [/\ 0 <= toR a :> R, toR a <= toR b :> R, 0 < toR d :> R & changes_sign a b d (modulus k)].
 Proof. by case/and4P: interval => a0 ab d0 sign; rewrite toR_ge0 toR_le toR_gt0. Qed.
-
-(* Signs over the interval, or at a point of it. *)
-Lemma value_signs x y p t : 0 <= toR x :> R -> toR x <= toR d * t -> toR d * t <= toR y ->
-  [/\ (0 <=? lower_value k x y p)%Z -> 0 <= eval p t,
-      (upper_value k x y p <=? 0)%Z -> eval p t <= 0,
-      (0 <? lower_value k x y p)%Z -> 0 < eval p t &
-      (upper_value k x y p <? 0)%Z -> eval p t < 0].
-Proof.
-move=> x0 xt ty; have [_ _ d0 _] := interval_parts.
-have := horner_interval_sound p x0 xt ty d0; rewrite /lower_value /upper_value.
-case: (horner_interval x y d p) => [[lo hi] power] [power0 le_lo le_hi] /=.
-split; rewrite -?(@toR_ge0 R) -?(@toR_le0 R) -?(@toR_gt0 R) -?(@toR_lt0 R) => sign.
-- by rewrite -(pmulr_rge0 _ power0); apply: le_trans le_lo.
-- by rewrite -(pmulr_rle0 _ power0); apply: le_trans sign.
-- by rewrite -(pmulr_rgt0 _ power0); apply: lt_le_trans le_lo.
-- by rewrite -(pmulr_rlt0 _ power0); apply: le_lt_trans sign.
-Qed.
 
 Lemma modulus_root : exists t : R,
   [/\ toR a <= toR d * t, toR d * t <= toR b & eval (modulus k) t = 0].
-Proof.
-have [a0 ab d0 sign] := interval_parts.
-have nz : toR d != 0 :> R by rewrite gt_eqF.
-pose ta : R := toR a / toR d; pose tb : R := toR b / toR d.
-have eq_a : toR d * ta = toR a by rewrite /ta mulrC divfK.
-have eq_b : toR d * tb = toR b by rewrite /tb mulrC divfK.
-have tab : ta <= tb by rewrite /ta /tb ler_pmul2r ?invr_gt0.
-have b0 : 0 <= toR b :> R := le_trans a0 ab.
-have [a1 a2 _ _] := @value_signs a a (modulus k) ta a0
-  (eq_ind_r (fun v => toR a <= v) (lexx _) eq_a) (eq_ind_r (fun v => v <= toR a) (lexx _) eq_a).
-have [b1 b2 _ _] := @value_signs b b (modulus k) tb b0
-  (eq_ind_r (fun v => toR b <= v) (lexx _) eq_b) (eq_ind_r (fun v => v <= toR b) (lexx _) eq_b).
-
-have [t /andP[ta_t t_tb] /rootP root_t] :
-    exists2 t, ta <= t <= tb & root (to_poly (modulus k)) t.
-  apply: root_between => //; rewrite !horner_to_poly.
-  by case/orP: sign => /andP[s1 s2]; [apply: mulr_le0_ge0 | apply: mulr_ge0_le0]; auto.
-exists t; rewrite -eq_a -eq_b !ler_pmul2l //; split=> //.
-by rewrite -horner_to_poly.
-Qed.
+Proof. by have [a0 ab d0 sign] := interval_parts; apply: root_on. Qed.
 
 Section AtRoot.
 
@@ -275,32 +350,24 @@ Variable t : R.
 Hypotheses (at_ : toR a <= toR d * t) (tb : toR d * t <= toR b).
 Hypothesis root_t : eval (modulus k) t = 0.
 
-Lemma reduces_eval g w : reduces k g w ->
-  0 < toR (multiplier w) :> R /\ toR (multiplier w) * eval g t = eval (rest w) t.
-Proof.
-case/andP=> c0 zero; split; first by rewrite toR_gt0.
-have := eval_zero t zero; rewrite eval_add !eval_scale eval_add eval_mul root_t mul0r add0r.
-by rewrite -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r => /eqP; rewrite subr_eq0 => /eqP.
-Qed.
-
 Lemma zero_sound g w : shows_zero k g w -> eval g t = 0.
 Proof.
-case/andP=> /reduces_eval[c0 eq] /(eval_zero t) r0.
+case/andP=> /reduces_byE/(_ root_t)[c0 eq] /(eval_zero t) r0.
 by apply: (mulfI (lt0r_neq0 c0)); rewrite eq r0 mulr0.
 Qed.
 
 Lemma positive_sound g w : shows_positive k g w -> 0 < eval g t.
 Proof.
-have [a0 _ _ _] := interval_parts.
-case/andP=> /reduces_eval[c0 eq] sign; rewrite -(pmulr_rgt0 _ c0) eq.
-by have [_ _ pos _] := value_signs (rest w) a0 at_ tb; apply: pos.
+have [a0 _ d0 _] := interval_parts.
+case/andP=> /reduces_byE/(_ root_t)[c0 eq] sign; rewrite -(pmulr_rgt0 _ c0) eq.
+by have [_ _ pos _] := interval_signs (rest w) a0 d0 at_ tb; apply: pos.
 Qed.
 
 Lemma negative_sound g w : shows_negative k g w -> eval g t < 0.
 Proof.
-have [a0 _ _ _] := interval_parts.
-case/andP=> /reduces_eval[c0 eq] sign; rewrite -(pmulr_rlt0 _ c0) eq.
-by have [_ _ _ neg] := value_signs (rest w) a0 at_ tb; apply: neg.
+have [a0 _ d0 _] := interval_parts.
+case/andP=> /reduces_byE/(_ root_t)[c0 eq] sign; rewrite -(pmulr_rlt0 _ c0) eq.
+by have [_ _ _ neg] := interval_signs (rest w) a0 d0 at_ tb; apply: neg.
 Qed.
 
 End AtRoot.
@@ -334,21 +401,8 @@ Hypothesis root_t : eval (modulus k) t = 0.
 
 Definition x_at i := eval (component k i) t.
 
-Lemma combine_rowE row : all (fun e => e.1 < order Q)%N row ->
-  eval (combine_row k row) t = \sum_(j <- iota 0 (order Q)) toR (lookup row j) * x_at j.
-Proof.
-move=> range; rewrite (sum_lookup _ range); elim: row {range} => [|e row IH] /=.
-  by rewrite big_nil.
-by rewrite big_cons eval_add eval_scale IH.
-Qed.
-
 Lemma reaction_polyE i : eval (reaction_poly Q k i) t = reaction Q t x_at i.
-Proof.
-have [_ cols _ _] := claim_parts; have [ra rb] := columns_in_rows cols i.
-rewrite /reaction_poly eval_add /= -/(eval _ t) toR0 add0r !combine_rowE //.
-rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
-by rewrite /a_entry /b_entry mulrDl mulrA.
-Qed.
+Proof. by have [_ cols _ _] := claim_parts; apply: row_polyE. Qed.
 
 End AtRoot.
 

@@ -29,20 +29,13 @@
    Page: spec/certificates.md, 5.6 and 5.15.
    Rust: crates/check/src/cover/mod.rs, found.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Root RootLeaf
-  Pinned.
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Farkas Covered Definite Root
+  RootLeaf Pinned.
 
 Definition interval := (point * point)%type.
 
 (* A region with one solution, and an interval of its value. *)
 Record yield := Yield { yield_region : region; yield_from : point; yield_to : point }.
-
-Lemma Forall2_in T U (p : T -> U -> Prop) ys l : List.Forall2 p ys l ->
-  forall s, List.In s l -> exists2 y, List.In y ys & p y s.
-Proof.
-elim=> // y s ys' l' ps _ IH s' /= [<-|/IH[z zl pz]]; first by exists y => //; left.
-by exists z => //; right.
-Qed.
 
 (* What regions say of the solutions in a window, whatever a solution is, which vectors count as
    the same, and what it is to lie in a region. *)
@@ -212,22 +205,6 @@ Definition check_cover (tr : tree leaf) (lo hi : point) :=
   check_tree (size_of P) check_leaf tr (window lo hi).
 
 End Checker.
-
-Lemma in_pmap T U (f : T -> option U) (l : seq T) y :
-  List.In y (pmap f l) <-> exists2 x, List.In x l & f x = Some y.
-Proof.
-elim: l => [|a l IH] /=; first by split=> [|[]].
-case fa: (f a) => [b|] /=.
-  split=> [[<-|/IH[x xl fx]]|[x [<-|xl] fx]].
-  - by exists a => //; left.
-  - by exists x => //; right.
-  - by left; move: fx; rewrite fa => -[].
-  - by right; apply/IH; exists x.
-split=> [/IH[x xl fx]|[x [ax|xl] fx]].
-- by exists x => //; right.
-- by move: fx; rewrite -ax fa.
-- by apply/IH; exists x.
-Qed.
 
 Section Sound.
 

@@ -59,21 +59,9 @@ Section Checker.
 
 Local Open Scope Z_scope.
 
-(* c x + y *)
-Fixpoint add_multiple (c : Z) (x y : seq Z) : seq Z :=
-  match x, y with
-  | [::], _ => y
-  | a :: x', [::] => c * a :: add_multiple c x' [::]
-  | a :: x', b :: y' => c * a + b :: add_multiple c x' y'
-  end.
-
 (* The same for a sparse row x. *)
 Definition scatter (c : Z) (row : sparse_row) (y : seq Z) : seq Z :=
   foldr (fun e y => set_nth 0 y e.1 (c * e.2 + nth 0 y e.1)) y row.
-
-(* A sparse row times the matrix Y. *)
-Definition row_times (Y : matrix) (row : sparse_row) : seq Z :=
-  foldr (fun e sum => add_multiple e.2 (nth [::] Y e.1) sum) [::] row.
 
 (* The sum of |entry| w_j over a row. *)
 Definition absolute_dot (row : sparse_row) (w : seq Z) : Z :=
@@ -103,7 +91,7 @@ Definition vanishes_elsewhere :=
   all (fun j => box_active j || (nth 0 V j =? 0)) (iota 0 (order Q)) &&
   inverse_vanishes_off pivot_removed.
 
-Notation times_inverse := (row_times Y).
+Notation times_inverse := (combine_row Y).
 
 Definition margin (g : seq Z) p := 2 * nth 0 g p - norm1 g.
 
@@ -226,13 +214,6 @@ Section Lists.
 Variable R : realFieldType.
 Local Notation Rz := (toR : Z -> R).
 
-Lemma nth_add_multiple a x y p :
-  nth 0%Z (add_multiple a x y) p = (a * nth 0 x p + nth 0 y p)%Z.
-Proof.
-elim: x y p => [|b x IH] [|b' y] [|p] /=; rewrite ?nth_nil ?Z.mul_0_r ?Z.add_0_r //.
-by rewrite IH nth_nil Z.add_0_r.
-Qed.
-
 Lemma nth_row_at_end e a b p :
   nth 0%Z (row_at_end e a b) p = at_end e (nth 0%Z a p) (nth 0%Z b p).
 Proof. by rewrite !nth_add_multiple nth_nil Z.add_0_r. Qed.
@@ -243,13 +224,6 @@ Proof.
 elim: row => [|e row IH] /=; first by rewrite Z.mul_0_r.
 rewrite nth_set_nth /= eq_sym; case: eqP => [->|_]; rewrite IH //.
 by move: (nth _ _ _) (lookup _ _) => n l; ring.
-Qed.
-
-Lemma nth_row_times Y row p :
-  Rz (nth 0%Z (row_times Y row) p) = \sum_(e <- row) toR e.2 * toR (nth 0%Z (nth [::] Y e.1) p).
-Proof.
-elim: row => [|e row IH] /=; first by rewrite big_nil nth_nil.
-by rewrite nth_add_multiple toRD toRM big_cons IH.
 Qed.
 
 Lemma toR_at_end e a b : Rz (at_end e a b) = toR e.2 * toR a + toR e.1 * toR b.
@@ -297,7 +271,7 @@ Notation variables := (iota 0 (order Q)).
 Notation J := (active_list Q c).
 Notation K := (pivot_removed Q c).
 Notation k := (box_pivot c).
-Notation times_inverse := (row_times (right_inverse c)).
+Notation times_inverse := (combine_row (right_inverse c)).
 Notation V j := (toR (nth 0%Z (box_center c) j) : R).
 Notation Y j p := (toR (nth 0%Z (nth [::] (right_inverse c) j) p) : R).
 Notation W := (toR (box_width c) : R).
@@ -441,7 +415,7 @@ Lemma times_inverseE row p : all (fun e => e.1 < order Q)%N row ->
   toR (nth 0%Z (times_inverse row) p) = \sum_(j <- K) toR (lookup row j) * Y j p.
 Proof.
 move=> range; rewrite -sum_over_K => [|j Hj out]; last by rewrite inverse_elsewhere ?mulr0.
-by rewrite sum_lookup // nth_row_times.
+by rewrite sum_lookup // nth_combine_row.
 Qed.
 
 Definition product_row e i :=

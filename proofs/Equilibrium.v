@@ -25,7 +25,7 @@
 
    Page: spec/certificates.md, 5.20.  Rust: crates/check/src/equilibrium.rs. *)
 
-From Mceip Require Import Base Integers Sums Covered Bounded Condensation EnclosedClaim System
+From Mceip Require Import Base Integers Sums Claim Covered Bounded Condensation EnclosedClaim System
   Rational Statement Integral.
 
 Inductive equilibrium_evidence :=
@@ -37,7 +37,7 @@ Section Checker.
 Local Open Scope Z_scope.
 
 Definition dominated_row Y V W i row :=
-  let g := row_times Y row in
+  let g := combine_row Y row in
   (0 <? margin g i) && (Z.abs (sparse_dot row V) <=? margin g i * W).
 
 Definition check_rows n (eqs ineqs : seq sparse_row) w :=
@@ -191,8 +191,8 @@ Notation row p := (nth [::] eqs p).
 Notation v j := (toR (nth 0%Z V j) : R).
 Notation y j p := (toR (nth 0%Z (nth [::] Y j) p) : R).
 
-Let G : 'M[R]_m := \matrix_(p, q) toR (nth 0%Z (row_times Y (row p)) q).
-Let g (p : 'I_m) : R := toR (margin (row_times Y (row p)) p).
+Let G : 'M[R]_m := \matrix_(p, q) toR (nth 0%Z (combine_row Y (row p)) q).
+Let g (p : 'I_m) : R := toR (margin (combine_row Y (row p)) p).
 Let residual : 'cV[R]_m := \col_p value_at (row p) (fun j => v j).
 
 Lemma regular_at (p : 'I_m) : 0 < g p /\ `|residual p 0| <= g p * toR W.
@@ -235,7 +235,7 @@ have : (G *m z) p 0 = - residual p 0 by rewrite Gz mxE.
 rewrite !mxE rE => Gz_p; rewrite /value_at; under eq_bigr do rewrite mulrDr.
 rewrite big_split -/(value_at r _) /= -[X in X + _]opprK -Gz_p addrC; apply/eqP.
 rewrite subr_eq0; apply/eqP; under eq_bigr do rewrite mulr_sumr.
-rewrite exchange_big; apply: eq_bigr => q _; rewrite [G p q]mxE rE nth_row_times mulr_suml.
+rewrite exchange_big; apply: eq_bigr => q _; rewrite [G p q]mxE rE nth_combine_row mulr_suml.
 by apply: eq_bigr => e _; rewrite mulrA.
 Qed.
 

@@ -21,8 +21,8 @@
    Page: spec/certificates.md, 5.12 (yields) and 5.15.
    Rust: crates/check/src/cover/support.rs, found.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
-  Cover Number Condensation Pencil Whole Claim Complete Signs Support System.
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Covered Definite Root RootLeaf
+  Pinned Cover Number Condensation Pencil Whole Claim Complete Signs Support System.
 
 (* A place of a support leaf, with the region of the leaf. *)
 Definition family := (region * holding)%type.
@@ -88,41 +88,6 @@ Definition belongs n (y : yield) (f : family) :=
   end && all_same n (yield_region y) f.1.
 
 End Checker.
-
-Lemma in_flatten_map T U (f : T -> seq U) l y :
-  List.In y (flatten (map f l)) <-> exists2 x, List.In x l & List.In y (f x).
-Proof.
-elim: l => [|a l IH] /=; first by split=> [|[]].
-rewrite in_cat_or IH; split=> [[yf|[x xl yf]]|[x [<-|xl] yf]].
-- by exists a => //; left.
-- by exists x => //; right.
-- by left.
-by right; exists x.
-Qed.
-
-Lemma in_filter T (p : T -> bool) l x : List.In x (filter p l) <-> List.In x l /\ p x.
-Proof.
-elim: l => [|a l IH] /=; first by split=> [|[]].
-case pa: (p a) => /=; split.
-- by case=> [<-|/IH[xl px]]; split=> //; [left | right].
-- by case=> -[<-|xl] px; [left | right; apply/IH].
-- by case/IH=> xl px; split=> //; right.
-by case=> -[<-|xl] px; [rewrite pa in px | apply/IH].
-Qed.
-
-Lemma has_In_family (p : family -> bool) l : has p l -> exists2 f, List.In f l & p f.
-Proof.
-elim: l => //= f l IH /orP[pf|/IH[g gl pg]]; first by exists f => //; left.
-by exists g => //; right.
-Qed.
-
-Lemma in_zip T U (rs : seq T) (ls : seq U) r : size rs = size ls -> List.In r rs ->
-  exists l, List.In (r, l) (zip rs ls).
-Proof.
-elim: rs ls => //= a rs IH [|b ls] //= [sz] [<-|/(IH _ sz)[l rl]].
-  by exists b; left.
-by exists l; right.
-Qed.
 
 (* Solutions of a family, and what is not in a list: families, and solutions in open regions. *)
 Section Unlisted.
@@ -369,7 +334,7 @@ have kept_or_family y (t : R) x : List.In y candidates -> solution Q t x ->
     (exists2 y, List.In y kept & lies_in Q (yield_region y) t x) \/
     unlisted (lies_in Q) families (open_of rs ls) t x.
   move=> y_in sol reg; case of_family: (has (belongs ns y) families).
-    have [f f_in bel] := has_In_family of_family.
+    have [f f_in bel] := has_In of_family.
     have [t0 [x0 [bt _ _ uniq]]] := one_each y y_in; have [eq_t _] := uniq t x sol reg.
     right; left; exists f => //; apply: (belongs_sound supports f_in bel) => //.
     by rewrite eq_t.

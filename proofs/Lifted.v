@@ -52,8 +52,8 @@ Definition w_poly d := nth [::] (forces l) d.
 
 (* ((K + t M) v - w)_d *)
 Definition balance_poly d :=
-  let stiff := combine_row k (k_row s d) in
-  let inertia := if u is Lambda2 _ _ then 0 :: combine_row k (m_row s d) else [::] in
+  let stiff := combine_row (components k) (k_row s d) in
+  let inertia := if u is Lambda2 _ _ then 0 :: combine_row (components k) (m_row s d) else [::] in
   subtract (add_poly stiff inertia) (w_poly d).
 
 Definition along_poly (e : planar) p (f : nat -> polynomial) :=
@@ -148,9 +148,9 @@ Proof.
 move/bal/zero_at; have [rk rm] := rows_in_range wf i.
 rewrite /balance_poly eval_subtract eval_add => /eqP; rewrite subr_eq0 => /eqP sum.
 rewrite forceE -[RHS]sum; congr (_ + _).
-  exact/esym/(@combine_rowE R (Pencil (dofs s) [::] [::] [::])).
+  exact/esym/(combine_rowE _ _ rk).
 rewrite /lambda2_of; case: (u) => [|m q]; first by rewrite mul0r.
-by rewrite eval_shift; congr (_ * _); exact/esym/(@combine_rowE R (Pencil (dofs s) [::] [::] [::])).
+by rewrite eval_shift; congr (_ * _); exact/esym/(combine_rowE _ _ rm).
 Qed.
 
 Lemma along_force e p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->

@@ -22,7 +22,7 @@
    Page: spec/certificates.md, 5.15 (solutions yielded twice).
    Rust: crates/check/src/cover/found.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed RootLeaf Pinned Cover.
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed RootLeaf Pinned Cover.
 
 Section Checker.
 
@@ -175,15 +175,6 @@ Qed.
 Definition covered_by (l : seq pair_of_solution) (y : yield) := forall t x,
   solution t x -> in_region n t (slip_part x) (yield_region y) ->
   exists2 s, List.In s l & one_solution s (t, x).
-
-Lemma has_In (p : yield -> bool) l : has p l -> exists2 y, List.In y l & p y.
-Proof.
-elim: l => //= y l IH /orP[py|/IH[z zl pz]]; first by exists y => //; left.
-by exists z => //; right.
-Qed.
-
-Lemma all_In (p : yield -> bool) l : all p l -> forall y, List.In y l -> p y.
-Proof. by elim: l => //= z l IH /andP[pz /IH pl] y [<-|/pl]. Qed.
 
 Lemma Forall2_size (p : yield -> pair_of_solution -> Prop) ys l : List.Forall2 p ys l ->
   size ys = size l.

@@ -27,7 +27,7 @@
 
    Page: spec/certificates.md, 5.15 (Infinity).  Rust: src/cli/infinity.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Cover Condensation
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Covered Definite Cover Condensation
   Pencil Whole Complete System Signs Support Families Varying Covers.
 
 Section Checker.
@@ -146,7 +146,7 @@ have [finite fam wf] := point_parts => f_in; have [pl each] := families_hold R f
 have at_e (t : R) : in_place (held_place f.2) t -> between t e e.
   move=> /each[[x [_ [bt _]]] _]; have /and3P[_ _ inside] := checked.
   by have /andP[/same_point_eq lo /same_point_eq hi] :=
-    Support.all_In inside f_in; rewrite lo hi in bt.
+    all_In inside f_in; rewrite lo hi in bt.
 split=> //; split=> // t at_t; have [[x [sol reg]] alone] := each t at_t.
 have same y := point_solution finite y wf (at_e t at_t).
 split; first by exists x; split=> //; apply/same.

@@ -47,12 +47,8 @@ Definition add_series : seq matrix -> seq matrix -> seq matrix := add_lists add_
 Definition scale_series c (L : seq matrix) : seq matrix :=
   [seq [seq scale_poly c row | row <- M] | M <- L].
 
-(* The entries of the rows of X, combined by a sparse row. *)
-Definition combine (X : matrix) (row : sparse_row) : seq Z :=
-  foldr (fun e s => add_poly (scale_poly e.2 (nth [::] X e.1)) s) [::] row.
-
 Definition product (rows : seq sparse_row) (X : matrix) : matrix :=
-  [seq combine X row | row <- rows].
+  [seq combine_row X row | row <- rows].
 
 Definition product_series rows (L : seq matrix) := [seq product rows X | X <- L].
 
@@ -184,8 +180,7 @@ move=> range; rewrite /entry /product; have [l|l] := ltnP i (size rows); last fi
   rewrite !nth_default ?size_map //= sum_zero // => k _.
   by rewrite toR0 mul0r.
 rewrite (nth_map [::]) // (sum_lookup (fun k => toR (nth 0%Z (nth [::] X k) j)) range).
-elim: (nth [::] rows i) {range} => [|e row IH]; first by rewrite big_nil nth_nil.
-by rewrite big_cons /= nth_add_poly nth_scale_poly toRD toRM IH.
+exact: nth_combine_row.
 Qed.
 
 Lemma value_product n rows L d i j : all (fun e => e.1 < n)%N (nth [::] rows i) ->
@@ -281,20 +276,6 @@ apply: norm_ext (norm_add (column_norm j sM) (norm_weak _ (norm_scale d (IH sL))
 by rewrite ler_wpmul2r // eval_norms_ge0.
 Qed.
 
-(* (L(d) - L(e)) / (d - e) *)
-Fixpoint quotient_value (L : seq matrix) d e i j : R :=
-  if L is _ :: L' then value L' d i j + e * quotient_value L' d e i j else 0.
-
-Lemma quotient_valueE L d e i j :
-  value L d i j - value L e i j = (d - e) * quotient_value L d e i j.
-Proof.
-elim: L => [|M L IH]; first by rewrite !value_nil subrr mulr0.
-rewrite /= !value_cons; move: IH; set a := value L d i j; set b := value L e i j.
-set q := quotient_value _ _ _ _ _ => IH.
-have -> : (d - e) * (a + e * q) = (d - e) * a + e * ((d - e) * q) by ring.
-by rewrite -IH; ring.
-Qed.
-
 Lemma eval_derivative_cons a p (b : R) : eval (derivative (a :: p)) b =
   eval p b + b * eval (derivative p) b.
 Proof. by rewrite /= eval_add /= toR0 add0r. Qed.
@@ -306,7 +287,7 @@ by rewrite [norms _ _]/= eval_derivative_cons addr_ge0 ?mulr_ge0 ?eval_norms_ge0
 Qed.
 
 Lemma series_difference n L j d e b : all (fun M => size M <= n)%N L -> `|d| <= b -> `|e| <= b ->
-  norm_le (iota 0 n) (fun k => quotient_value L d e k j) (eval (derivative (norms L j)) b).
+  norm_le (iota 0 n) (fun k => slope (poly_of L k j) d e) (eval (derivative (norms L j)) b).
 Proof.
 move=> + db eb; have b0 : 0 <= b := le_trans (normr_ge0 d) db.
 elim: L => [_|M L IH /andP[sM sL]]; first exact: norm_zero.
@@ -414,20 +395,8 @@ Qed.
 
 End Chord.
 
-Fixpoint quotient_poly p u u' : R :=
-  if p is _ :: p' then eval p' u + u' * quotient_poly p' u u' else 0.
-
-Lemma quotient_polyE p u u' : eval p u - eval p u' = (u - u') * quotient_poly p u u'.
-Proof.
-elim: p => [|a p IH] /=; first by rewrite subrr mulr0.
-rewrite -/(eval p u) -/(eval p u'); move: IH; set q := quotient_poly _ _ _.
-set x := eval p u; set y := eval p u' => IH.
-have -> : (u - u') * (x + u' * q) = (u - u') * x + u' * ((u - u') * q) by ring.
-by rewrite -IH; ring.
-Qed.
-
-Lemma quotient_poly_bound p u u' : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
-  `|quotient_poly p u u'| <= toR (spread_of p).
+Lemma slope_bound p u u' : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
+  `|slope p u u'| <= toR (spread_of p).
 Proof.
 move=> u0 u1 v0 v1; elim: p => [|a p IH] /=; first by rewrite normr0.
 rewrite toRD (le_trans (ler_norm_add _ _)) // ler_add //; first exact: eval_norm1.
@@ -442,13 +411,13 @@ move=> u0 u1 v0 v1; case: p => [|a p].
   by exists 0; rewrite /= ?toR0 ?addr0 ?mulr0 ?subrr ?normr0.
 have twice : toR (2 * spread (a :: p))%Z = toR (spread_of p) + toR (spread_of p) :> R.
   by rewrite -toRD; congr toR; rewrite -[spread (a :: p)]/(spread_of p); clear; lia.
-exists ((eval p u - toR (total p)) + u' * quotient_poly p u u').
-  rewrite quotient_polyE -[chord_of (a :: p)]/(total p).
-  rewrite -[quotient_poly (a :: p) u u']/(eval p u + u' * quotient_poly p u u').
+exists ((eval p u - toR (total p)) + u' * slope p u u').
+  rewrite slopeE -[chord_of (a :: p)]/(total p).
+  rewrite -[slope (a :: p) u u']/(eval p u + u' * slope p u u').
   congr (_ * _).
-  by move: (toR (total p)) (eval p u) (quotient_poly _ _ _) => *; ring.
+  by move: (toR (total p)) (eval p u) (slope _ _ _) => *; ring.
 rewrite twice (le_trans (ler_norm_add _ _)) // ler_add //; first exact: (eval_total u0 u1 p).1.
-rewrite normrM ger0_norm //; apply: le_trans (quotient_poly_bound p u0 u1 v0 v1).
+rewrite normrM ger0_norm //; apply: le_trans (slope_bound p u0 u1 v0 v1).
 by rewrite ler_pimull.
 Qed.
 

@@ -52,9 +52,6 @@ Section Checker.
 
 Local Open Scope Z_scope.
 
-Definition low_on (a b d : Z) p := (horner_interval a b d p).1.1.
-Definition high_on (a b d : Z) p := (horner_interval a b d p).1.2.
-
 (* Interval Horner of p, and a lower bound of d^n S(s, t), for s and t in [a/d, b/d]; p has n
    coefficients. *)
 Fixpoint slope_interval (a b d : Z) (p : polynomial) : Z * Z * Z * Z :=
@@ -76,12 +73,6 @@ Definition check_value (v : value) :=
       (a =? b) || (0 <? slope_low a b d p)].
 
 Definition low_of (v : value) g := low_on (value_from v) (value_to v) (value_den v) g.
-
-Definition same_poly (p q : polynomial) := zero_poly (add_poly p (scale_poly (-1) q)).
-
-Definition reduces_by p g (w : reduction) :=
-  (0 <? multiplier w) &&
-  same_poly (scale_poly (multiplier w) g) (add_poly (mul_poly p (quotient w)) (rest w)).
 
 Definition power_poly p i : polynomial := iter i (mul_poly p) [:: 1].
 
@@ -167,17 +158,6 @@ Definition in_place (pl : place) t :=
   | Above v => forall s, is_value v s -> s < t
   end.
 
-(* (p(s) - p(t)) / (s - t) *)
-Fixpoint slope (p : polynomial) s t : R :=
-  if p is _ :: p' then eval p' s + t * slope p' s t else 0.
-
-Lemma slopeE p s t : eval p s - eval p t = (s - t) * slope p s t.
-Proof.
-elim: p => [|c p IH] /=; first by rewrite subr0 mulr0.
-rewrite -/(eval p s) -/(eval p t) mulrDr mulrCA -IH.
-by move: (eval p s) (eval p t) (toR c) => *; ring.
-Qed.
-
 Section Interval.
 
 Variables (a b d : Z).
@@ -194,29 +174,6 @@ Lemma low_onE p t : toR a <= toR d * t -> toR d * t <= toR b ->
 Proof.
 move=> at_ tb; have := horner_interval_sound p a0 at_ tb d0; rewrite /low_on.
 by case: (horner_interval a b d p) => [[lo hi] power] /= [].
-Qed.
-
-Lemma low_on_gt0 p t : toR a <= toR d * t -> toR d * t <= toR b ->
-  (0 <? low_on a b d p)%Z -> 0 < eval p t.
-Proof.
-move=> at_ tb; rewrite -(@toR_gt0 R) => lo.
-by rewrite -(pmulr_rgt0 _ (interval_power p)); apply: lt_le_trans (low_onE _ at_ tb).
-Qed.
-
-Lemma low_on_ge0 p t : toR a <= toR d * t -> toR d * t <= toR b ->
-  (0 <=? low_on a b d p)%Z -> 0 <= eval p t.
-Proof.
-move=> at_ tb; rewrite -(@toR_ge0 R) => lo.
-by rewrite -(pmulr_rge0 _ (interval_power p)); apply: le_trans (low_onE _ at_ tb).
-Qed.
-
-Lemma high_on_le0 p t : toR a <= toR d * t -> toR d * t <= toR b ->
-  (high_on a b d p <=? 0)%Z -> eval p t <= 0.
-Proof.
-move=> at_ tb; rewrite -(@toR_le0 R) => hi.
-have := horner_interval_sound p a0 at_ tb d0; move: hi; rewrite /high_on.
-case: (horner_interval a b d p) => [[lo hi] power] /= hi0 [power0 _ le_hi].
-by rewrite -(pmulr_rle0 _ power0); apply: le_trans hi0.
 Qed.
 
 Lemma slope_intervalE p : (slope_interval a b d p).1 = horner_interval a b d p.
@@ -270,18 +227,7 @@ by case/and5P=> a0 ab d0 pa /andP[pb slope]; rewrite toR_ge0 toR_le toR_gt0.
 Qed.
 
 Lemma value_exists : exists s, is_value v s.
-Proof.
-have [a0 ab d0 [pa pb _]] := value_parts.
-pose s : R := toR a / toR d; pose t : R := toR b / toR d.
-have eq_a : toR d * s = toR a by rewrite /s mulrC divfK // gt_eqF.
-have eq_b : toR d * t = toR b by rewrite /t mulrC divfK // gt_eqF.
-have st : s <= t by rewrite /s /t ler_pmul2r ?invr_gt0.
-have ps : eval p s <= 0 by apply: (@high_on_le0 a a d); rewrite ?eq_a.
-have pt : 0 <= eval p t by apply: (@low_on_ge0 b b d); rewrite ?eq_b // (le_trans a0).
-have [u /andP[su ut] /rootP root_u] : exists2 u, s <= u <= t & root (to_poly R p) u.
-  by apply: root_between => //; rewrite !horner_to_poly mulr_le0_ge0.
-by exists u; split; rewrite -?eq_a -?eq_b ?ler_pmul2l // -horner_to_poly.
-Qed.
+Proof. by have [a0 ab d0 [pa pb _]] := value_parts; apply: root_on; rewrite // /changes_sign pa pb. Qed.
 
 Lemma rational_value s t : rational v -> is_value v s ->
   toR a <= toR d * t -> toR d * t <= toR b -> t = s.
@@ -310,19 +256,6 @@ by rewrite mulf_eq0 (gt_eqF c0) orbF subr_eq0 => /eqP.
 Qed.
 
 End Value.
-
-Lemma same_polyE p q t : same_poly p q -> eval p t = eval q t.
-Proof.
-move=> /(eval_zero t); rewrite eval_add eval_scale -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r.
-by move/eqP; rewrite subr_eq0 => /eqP.
-Qed.
-
-Lemma reduces_byE p g w t : reduces_by p g w -> eval p t = 0 ->
-  0 < toR (multiplier w) :> R /\ toR (multiplier w) * eval g t = eval (rest w) t.
-Proof.
-case/andP=> c0 /(same_polyE t); rewrite eval_scale eval_add eval_mul => -> ->.
-by rewrite mul0r add0r toR_gt0.
-Qed.
 
 Lemma eval_power p i t : eval (power_poly p i) t = eval p t ^+ i.
 Proof.

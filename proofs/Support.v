@@ -24,7 +24,7 @@
 
    Page: spec/certificates.md, 5.12.  Rust: crates/check/src/cover/support.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Existence Condensation Pencil Claim
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Existence Condensation Pencil Claim
   Signs.
 
 Inductive claimed_sign := IsZero | IsPositive | IsNegative.
@@ -103,13 +103,6 @@ Definition column_poly (w : poly_vector) j : polynomial :=
            if component_of w i is [::] then sum
            else add_poly (times_entry i j (component_of w i)) sum) [::] indices.
 
-Definition product_with (x : poly_vector) (row : sparse_row) : polynomial :=
-  foldr (fun e sum => add_poly (scale_poly e.2 (component_of x e.1)) sum) [::] row.
-
-(* y_i *)
-Definition row_poly (x : poly_vector) i : polynomial :=
-  add_poly (product_with x (row_a Q i)) (0 :: product_with x (row_b Q i)).
-
 Section Place.
 
 Variable pl : place.
@@ -135,7 +128,7 @@ Definition check_branch (b : branch) :=
         shows pl (component_of (branch_x b) i) (sign_at (x_signs b) i)) indices &
       all (fun i => [&& ~~ is_negative (sign_at (y_signs b) i),
                         ~~ is_active i || is_zero (sign_at (y_signs b) i) &
-                        shows pl (row_poly (branch_x b) i) (sign_at (y_signs b) i)]) indices].
+                        shows pl (row_poly Q (branch_x b) i) (sign_at (y_signs b) i)]) indices].
 
 Definition check_bound (b : branch) (k : nat) (o : bound) :=
   let f := bound_signs o in
@@ -208,9 +201,6 @@ Definition holding_of (pe : place * reason) : option holding :=
   if pe.2 is Solved b then Some (Holding pe.1 (isSome (alone_by b))) else None.
 
 Definition holdings (l : support_leaf) := pmap holding_of (leaf_places l).
-
-Lemma all_In T (p : T -> bool) (l : seq T) x : all p l -> List.In x l -> p x.
-Proof. by elim: l => //= a l IH /andP[pa pl] [<-|/(IH pl)]. Qed.
 
 Section Sound.
 
@@ -393,27 +383,8 @@ Variable b : branch.
 Hypothesis branch_ok : check_branch Q r pl b.
 Notation x := (value_at (branch_x b)).
 
-Lemma product_withE row : all (fun e => e.1 < order Q)%N row ->
-  eval (product_with (branch_x b) row) t = \sum_(j <- indices) toR (lookup row j) * x j.
-Proof.
-move=> range; rewrite (sum_lookup _ range); elim: row {range} => [|e row IH] /=.
-  by rewrite big_nil.
-by rewrite big_cons eval_add eval_scale IH.
-Qed.
-
 Lemma row_polyE i : eval (row_poly Q (branch_x b) i) t = reaction Q t x i.
-Proof.
-case/and5P: branch_ok => /andP[/allP ca /allP cb] _ _ _ _.
-have ra : all (fun e => e.1 < order Q)%N (row_a Q i).
-  rewrite /row_a; have [l|l] := ltnP i (size (rows_a Q)); last by rewrite nth_default.
-  exact/ca/mem_nth.
-have rb : all (fun e => e.1 < order Q)%N (row_b Q i).
-  rewrite /row_b; have [l|l] := ltnP i (size (rows_b Q)); last by rewrite nth_default.
-  exact/cb/mem_nth.
-rewrite /row_poly eval_add /= -/(eval _ t) toR0 add0r !product_withE //.
-rewrite /reaction mulr_sumr -big_split /=; apply: eq_bigr => j _.
-by rewrite /a_entry /b_entry mulrDl mulrA.
-Qed.
+Proof. by case/and5P: branch_ok => cols _ _ _ _; apply: Claim.row_polyE. Qed.
 
 Lemma branch_moving i : i \in indices -> moves Q r i -> 0 < x i.
 Proof.
@@ -534,17 +505,14 @@ have [act|nact] := boolP (is_active Q r i); last first.
   by rewrite (branch_resting Hi rs) (resting_zero ag Hi rs) mulr0 mul0r.
 have := alone_ok; rewrite /check_alone alone => /and4P[_ _ bounds_ok /allP/(_ _ Hi)].
 rewrite act (negbTE ik) /= => /andP[up down].
-have find (P : bound -> bool) : has P bounds -> exists2 o, List.In o bounds & P o.
-  elim: (bounds) => //= o l IH /orP[Po|/IH[o' o'_in Po']]; first by exists o => //; left.
-  by exists o' => //; right.
 have own o : List.In o bounds -> bounded o = i ->
     holds_sign (own_sign o) (eval (column_poly Q (row_weights (bound_signs o)) i) t).
   move=> o_in eq_i; have := all_In bounds_ok o_in.
   case/and4P=> _ _ _ /allP/(_ _ Hi).
   by rewrite act (negbTE ik) /own_sign eq_i eqxx /= => /(shows_sound ok at_t).
 have bound_i o : List.In o bounds -> bounded o = i -> bounded o != k by move=> _ ->.
-have [o o_in /andP[/eqP eq_o pos]] := find _ up.
-have [o' o'_in /andP[/eqP eq_o' neg]] := find _ down.
+have [o o_in /andP[/eqP eq_o pos]] := has_In up.
+have [o' o'_in /andP[/eqP eq_o' neg]] := has_In down.
 have le1 := bound_sound o_in (bound_i _ o_in eq_o) sol.
 have le2 := bound_sound o'_in (bound_i _ o'_in eq_o') sol.
 move: le1 le2; rewrite eq_o eq_o' pmulr_rge0 ?(is_positiveE pos (own _ o_in eq_o)) //.
@@ -675,19 +643,7 @@ Hypothesis checked : check_support Q r l.
 
 Lemma in_holdings h : List.In h (holdings l) <->
   exists2 pe, List.In pe (leaf_places l) & holding_of pe = Some h.
-Proof.
-rewrite /holdings; elim: (leaf_places l) => [|a s IH] /=; first by split=> [|[]].
-case ha: (holding_of a) => [g|] /=.
-  split=> [[<-|/IH[pe pe_in eq]]|[pe [<-|pe_in] eq]].
-  - by exists a => //; left.
-  - by exists pe => //; right.
-  - by left; move: eq; rewrite ha => -[].
-  - by right; apply/IH; exists pe.
-split=> [/IH[pe pe_in eq]|[pe [<-|pe_in] eq]].
-- by exists pe => //; right.
-- by move: eq; rewrite ha.
-- by apply/IH; exists pe.
-Qed.
+Proof. exact: in_pmap. Qed.
 
 Theorem support_covers (t : R) x : solution_in Q r t x ->
   exists2 h, List.In h (holdings l) & in_place (held_place h) t.

@@ -19,7 +19,7 @@
    Pages: spec/certificates.md, 5.6 (trees), 5.18.
    Rust: crates/check/src/cover/walk.rs, region.rs, critical.rs. *)
 
-From Mceip Require Import Base Integers.
+From Mceip Require Import Base Lists Integers.
 
 Definition point := (Z * Z)%type.
 
@@ -51,10 +51,6 @@ Definition above t (r : region) := Region t (upper r) (states r).
 Definition ordered (lo hi : point) :=
   [&& (0 <=? lo.1)%Z, (0 <? lo.2)%Z, (0 <=? hi.1)%Z, (0 <=? hi.2)%Z,
       (0 <? hi.1 + hi.2)%Z & (lo.1 * hi.2 <=? hi.1 * lo.2)%Z].
-
-Lemma in_cat_or T (x : T) (a b : seq T) :
-  List.In x (a ++ b) <-> List.In x a \/ List.In x b.
-Proof. exact: List.in_app_iff. Qed.
 
 Section Tree.
 

@@ -25,8 +25,8 @@
    Page: spec/certificates.md, 5.6, 5.11, 5.14, 5.15.
    Rust: crates/check/src/cover/condensed.rs, expanded.rs, family.rs, root.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
-  Cover Number Condensation Pencil Whole Claim Complete System Series Anchor AnchorLeaf.
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Covered Definite Root RootLeaf
+  Pinned Cover Number Condensation Pencil Whole Claim Complete System Series Anchor AnchorLeaf.
 
 (* Bounds of A_ff and of B_ff; anchors, each with "is it reversed". *)
 Record anchoring := Anchoring {

@@ -28,9 +28,9 @@
    Page: spec/certificates.md, 5.6, 5.11, 5.15; spec/zero-reaction.md, Z.3 (covers).
    Rust: crates/check/src/cover/walk.rs, root.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Pinned
-  Cover Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs Support System Families
-  Varying Covers ZeroReaction ZeroPencil ZeroEnclosed.
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Covered Definite Root RootLeaf
+  Pinned Cover Number Condensation Pencil Whole Claim EnclosedClaim Complete Signs Support System
+  Families Varying Covers ZeroReaction ZeroPencil ZeroEnclosed.
 
 (* A claim that stands beside a region. *)
 Record pinned_box := PinnedBox {
@@ -203,7 +203,7 @@ apply: (listed_transfer (good := split z) (f := zero_motion z) _ _ _ _ _
   case=> [|[r r_in reg]]; [by left | right; exists r => //; apply/in_filter; split=> //].
   apply/negP => both; case: reg => _ ag.
   by apply: both_not_split ag both (split_variables (z := z) v).
-move=> y t x y_in; apply: apart_split; apply: (Support.all_In apart); exact: List.in_map.
+move=> y t x y_in; apply: apart_split; apply: (all_In apart); exact: List.in_map.
 Qed.
 
 Theorem zero_cover_hold ys : zero_distinct z u lo hi yields rs ls = Some ys ->
@@ -212,7 +212,7 @@ Theorem zero_cover_hold ys : zero_distinct z u lo hi yields rs ls = Some ys ->
 Proof.
 rewrite /zero_distinct; case: ifP => // apart _ f f_in.
 have [is_pl each_value] := supports_families R supports f_in; split=> // t at_t.
-have f_apart : halves_apart z f.1 by apply: (Support.all_In apart); apply: List.in_map.
+have f_apart : halves_apart z f.1 by apply: (all_In apart); apply: List.in_map.
 have [[x [sol reg]] alone] := each_value t at_t; split.
   have splits := apart_split f_apart sol reg.
   exists (zero_motion z x); split; first exact: zero_pencil_motion sol splits.
@@ -277,10 +277,10 @@ split=> [t x sol bt|y].
     by right; exists r => //; apply/in_pmap; exists (r, None).
   left; exists (pinned_yield r b).
     by apply/in_cat_or; right; apply/in_pmap; exists (r, Some b).
-  have /and5P[O /and3P[o le_lo le_hi] _ _ _] := Support.all_In pinned_all rb_in.
+  have /and5P[O /and3P[o le_lo le_hi] _ _ _] := all_In pinned_all rb_in.
   by case: reg => bt' ag; split=> //; apply: between_wider O o le_lo le_hi bt'.
 case/in_cat_or=> [/each|/in_pmap[[r [b|]] //= rb_in [<-]]] //.
-have /and5P[_ reach ok sup box] := Support.all_In pinned_all rb_in.
+have /and5P[_ reach ok sup box] := all_In pinned_all rb_in.
 apply: alone_sound => //; first by case/and3P: reach.
 exact: zero_box_known.
 Qed.

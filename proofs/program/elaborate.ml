@@ -1355,7 +1355,7 @@ let enclosed_claim_of (pencil : Kernel.pencil) (e : enclosed) =
                  left_null } in
     let rows_a = Array.of_list pencil.rows_a and rows_b = Array.of_list pencil.rows_b in
     let products rows = Array.map (fun i ->
-        Kernel.row_times bare.right_inverse rows.(variables.(i))) pair.others in
+        Kernel.combine_row bare.right_inverse rows.(variables.(i))) pair.others in
     let ga = products rows_a and gb = products rows_b in
 
     let check center (from, upto) =

@@ -1767,80 +1767,103 @@ let rec horner_interval a b d = function
      then Big_int_Z.mult_big_int b hi
      else Big_int_Z.mult_big_int a hi) constant0)), (Big_int_Z.mult_big_int power d))
 
-(** val lower_value :
-    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int **)
+(** val low_on :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
 
-let lower_value k x y p =
-  fst (fst (horner_interval x y k.claim_denominator p))
+let low_on a b d p =
+  fst (fst (horner_interval a b d p))
 
-(** val upper_value :
-    claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int **)
+(** val high_on :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
+    Big_int_Z.big_int **)
 
-let upper_value k x y p =
-  snd (fst (horner_interval x y k.claim_denominator p))
+let high_on a b d p =
+  snd (fst (horner_interval a b d p))
 
-(** val modulus_changes_sign : claim -> bool **)
+(** val changes_sign :
+    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> bool **)
 
-let modulus_changes_sign k =
-  let p = k.modulus in
+let changes_sign a b d p =
   (||)
-    ((&&) (Z.leb (upper_value k k.claim_from k.claim_from p) Big_int_Z.zero_big_int)
-      (Z.leb Big_int_Z.zero_big_int (lower_value k k.claim_to k.claim_to p)))
-    ((&&) (Z.leb Big_int_Z.zero_big_int (lower_value k k.claim_from k.claim_from p))
-      (Z.leb (upper_value k k.claim_to k.claim_to p) Big_int_Z.zero_big_int))
+    ((&&) (Z.leb (high_on a a d p) Big_int_Z.zero_big_int)
+      (Z.leb Big_int_Z.zero_big_int (low_on b b d p)))
+    ((&&) (Z.leb Big_int_Z.zero_big_int (low_on a a d p))
+      (Z.leb (high_on b b d p) Big_int_Z.zero_big_int))
+
+(** val same_poly : polynomial -> polynomial -> bool **)
+
+let same_poly p q =
+  zero_poly (add_poly p (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q))
+
+(** val reduces_by : polynomial -> polynomial -> reduction -> bool **)
+
+let reduces_by p g w =
+  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
+    (same_poly (scale_poly w.multiplier g) (add_poly (mul_poly p w.quotient) w.rest))
+
+(** val add_multiple :
+    Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    list **)
+
+let rec add_multiple c x y =
+  match x with
+  | [] -> y
+  | a :: x' ->
+    (match y with
+     | [] -> (Big_int_Z.mult_big_int c a) :: (add_multiple c x' [])
+     | b :: y' ->
+       (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c a) b) :: (add_multiple c x' y'))
+
+(** val combine_row : polynomial list -> sparse_row -> polynomial **)
+
+let combine_row x row =
+  foldr (fun e sum0 -> add_multiple (snd e) (nth [] x (fst e)) sum0) [] row
+
+(** val row_poly : pencil -> polynomial list -> int -> polynomial **)
+
+let row_poly q x i =
+  add_poly (combine_row x (row_a q i)) (Big_int_Z.zero_big_int :: (combine_row x (row_b q i)))
 
 (** val root_interval : claim -> bool **)
 
 let root_interval k =
   (&&) (Z.leb Big_int_Z.zero_big_int k.claim_from)
     ((&&) (Z.leb k.claim_from k.claim_to)
-      ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator) (modulus_changes_sign k)))
+      ((&&) (Z.ltb Big_int_Z.zero_big_int k.claim_denominator)
+        (changes_sign k.claim_from k.claim_to k.claim_denominator k.modulus)))
 
 (** val no_reduction : reduction **)
 
 let no_reduction =
   { multiplier = Big_int_Z.unit_big_int; quotient = []; rest = [] }
 
-(** val reduces : claim -> polynomial -> reduction -> bool **)
-
-let reduces k g w =
-  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
-    (zero_poly
-      (add_poly (scale_poly w.multiplier g)
-        (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-          (add_poly (mul_poly k.modulus w.quotient) w.rest))))
-
 (** val shows_zero : claim -> polynomial -> reduction -> bool **)
 
 let shows_zero k g w =
-  (&&) (reduces k g w) (zero_poly w.rest)
+  (&&) (reduces_by k.modulus g w) (zero_poly w.rest)
 
 (** val shows_positive : claim -> polynomial -> reduction -> bool **)
 
 let shows_positive k g w =
-  (&&) (reduces k g w)
-    (Z.ltb Big_int_Z.zero_big_int (lower_value k k.claim_from k.claim_to w.rest))
+  (&&) (reduces_by k.modulus g w)
+    (Z.ltb Big_int_Z.zero_big_int (low_on k.claim_from k.claim_to k.claim_denominator w.rest))
 
 (** val shows_negative : claim -> polynomial -> reduction -> bool **)
 
 let shows_negative k g w =
-  (&&) (reduces k g w)
-    (Z.ltb (upper_value k k.claim_from k.claim_to w.rest) Big_int_Z.zero_big_int)
+  (&&) (reduces_by k.modulus g w)
+    (Z.ltb (high_on k.claim_from k.claim_to k.claim_denominator w.rest) Big_int_Z.zero_big_int)
 
 (** val component : claim -> int -> Big_int_Z.big_int list **)
 
 let component k i =
   nth [] k.components i
 
-(** val combine_row : claim -> sparse_row -> polynomial **)
-
-let combine_row k row =
-  foldr (fun e sum0 -> add_poly (scale_poly (snd e) (component k (fst e))) sum0) [] row
-
 (** val reaction_poly : pencil -> claim -> int -> polynomial **)
 
 let reaction_poly q k i =
-  add_poly (combine_row k (row_a q i)) (Big_int_Z.zero_big_int :: (combine_row k (row_b q i)))
+  row_poly q k.components i
 
 (** val component_witness : claim -> int -> reduction **)
 
@@ -1917,19 +1940,6 @@ type enclosed_claim = { box_support : int list; box_from : point; box_to : point
                         right_inverse : matrix; box_width : Big_int_Z.big_int;
                         rate_width : Big_int_Z.big_int; left_null : Big_int_Z.big_int list }
 
-(** val add_multiple :
-    Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
-    list **)
-
-let rec add_multiple c x y =
-  match x with
-  | [] -> y
-  | a :: x' ->
-    (match y with
-     | [] -> (Big_int_Z.mult_big_int c a) :: (add_multiple c x' [])
-     | b :: y' ->
-       (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c a) b) :: (add_multiple c x' y'))
-
 (** val scatter :
     Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int list **)
 
@@ -1938,11 +1948,6 @@ let scatter c row y =
     set_nth Big_int_Z.zero_big_int y0 (fst e)
       (Big_int_Z.add_big_int (Big_int_Z.mult_big_int c (snd e))
         (nth Big_int_Z.zero_big_int y0 (fst e)))) y row
-
-(** val row_times : matrix -> sparse_row -> Big_int_Z.big_int list **)
-
-let row_times y row =
-  foldr (fun e sum0 -> add_multiple (snd e) (nth [] y (fst e)) sum0) [] row
 
 (** val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int **)
 
@@ -2034,8 +2039,8 @@ let dominated_ends c p ga gb ra rb rate0 =
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool **)
 
 let regular_row q c eps p i =
-  dominated_ends c p (row_times c.right_inverse (row_a q i))
-    (row_times c.right_inverse (row_b q i)) (sparse_dot (row_a q i) c.box_center)
+  dominated_ends c p (combine_row c.right_inverse (row_a q i))
+    (combine_row c.right_inverse (row_b q i)) (sparse_dot (row_a q i) c.box_center)
     (sparse_dot (row_b q i) c.box_center)
     (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (sparse_dot (row_b q i) c.box_center))
       (absolute_dot (row_b q i) eps))
@@ -2496,11 +2501,12 @@ let w_poly l d =
 (** val balance_poly : system -> unknown -> lifted -> int -> polynomial **)
 
 let balance_poly s u l d =
-  let stiff = combine_row l.motion_claim (k_row s d) in
+  let stiff = combine_row l.motion_claim.components (k_row s d) in
   let inertia =
     match u with
     | Mu -> []
-    | Lambda2 (_, _) -> Big_int_Z.zero_big_int :: (combine_row l.motion_claim (m_row s d))
+    | Lambda2 (_, _) ->
+      Big_int_Z.zero_big_int :: (combine_row l.motion_claim.components (m_row s d))
   in
   subtract (add_poly stiff inertia) (w_poly l d)
 
@@ -2854,20 +2860,6 @@ type sign_evidence =
 | Remainder of reduction
 | Parts of near * point list * near
 
-(** val low_on :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-    Big_int_Z.big_int **)
-
-let low_on a b d p =
-  fst (fst (horner_interval a b d p))
-
-(** val high_on :
-    Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
-    Big_int_Z.big_int **)
-
-let high_on a b d p =
-  snd (fst (horner_interval a b d p))
-
 (** val slope_interval :
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
     ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int **)
@@ -2916,17 +2908,6 @@ let check_value v =
 
 let low_of v g =
   low_on v.value_from v.value_to v.value_den g
-
-(** val same_poly : polynomial -> polynomial -> bool **)
-
-let same_poly p q =
-  zero_poly (add_poly p (scale_poly (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) q))
-
-(** val reduces_by : polynomial -> polynomial -> reduction -> bool **)
-
-let reduces_by p g w =
-  (&&) (Z.ltb Big_int_Z.zero_big_int w.multiplier)
-    (same_poly (scale_poly w.multiplier g) (add_poly (mul_poly p w.quotient) w.rest))
 
 (** val power_poly : polynomial -> int -> polynomial **)
 
@@ -3147,16 +3128,6 @@ let column_poly q w j =
     match component_of w i with
     | [] -> sum0
     | _ :: _ -> add_poly (times_entry q i j (component_of w i)) sum0) [] (iota 0 q.order)
-
-(** val product_with : poly_vector -> sparse_row -> polynomial **)
-
-let product_with x row =
-  foldr (fun e sum0 -> add_poly (scale_poly (snd e) (component_of x (fst e))) sum0) [] row
-
-(** val row_poly : pencil -> poly_vector -> int -> polynomial **)
-
-let row_poly q x i =
-  add_poly (product_with x (row_a q i)) (Big_int_Z.zero_big_int :: (product_with x (row_b q i)))
 
 (** val check_refutation : pencil -> region -> place -> refutation -> bool **)
 
@@ -3440,15 +3411,10 @@ let add_series =
 let scale_series c l =
   map0 (fun m -> map0 (fun row -> scale_poly c row) m) l
 
-(** val combine : matrix -> sparse_row -> Big_int_Z.big_int list **)
-
-let combine x row =
-  foldr (fun e s -> add_poly (scale_poly (snd e) (nth [] x (fst e))) s) [] row
-
 (** val product : sparse_row list -> matrix -> matrix **)
 
 let product rows x =
-  map0 (fun row -> combine x row) rows
+  map0 (fun row -> combine_row x row) rows
 
 (** val product_series : sparse_row list -> matrix list -> matrix list **)
 
@@ -5363,10 +5329,10 @@ type equilibrium_evidence =
 | BoxAround of Big_int_Z.big_int list * matrix * Big_int_Z.big_int
 
 (** val dominated_row :
-    matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row -> bool **)
+    polynomial list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row -> bool **)
 
 let dominated_row y v w i row =
-  let g = row_times y row in
+  let g = combine_row y row in
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g i))
     (Z.leb (Big_int_Z.abs_big_int (sparse_dot row v)) (Big_int_Z.mult_big_int (margin g i) w))
 

@@ -661,19 +661,30 @@ val horner_interval :
   Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
   (Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int
 
-val lower_value :
-  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
+val low_on :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
-val upper_value :
-  claim -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
+val high_on :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
 
-val modulus_changes_sign : claim -> bool
+val changes_sign :
+  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> bool
+
+val same_poly : polynomial -> polynomial -> bool
+
+val reduces_by : polynomial -> polynomial -> reduction -> bool
+
+val add_multiple :
+  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
+  list
+
+val combine_row : polynomial list -> sparse_row -> polynomial
+
+val row_poly : pencil -> polynomial list -> int -> polynomial
 
 val root_interval : claim -> bool
 
 val no_reduction : reduction
-
-val reduces : claim -> polynomial -> reduction -> bool
 
 val shows_zero : claim -> polynomial -> reduction -> bool
 
@@ -682,8 +693,6 @@ val shows_positive : claim -> polynomial -> reduction -> bool
 val shows_negative : claim -> polynomial -> reduction -> bool
 
 val component : claim -> int -> Big_int_Z.big_int list
-
-val combine_row : claim -> sparse_row -> polynomial
 
 val reaction_poly : pencil -> claim -> int -> polynomial
 
@@ -710,14 +719,8 @@ type enclosed_claim = { box_support : int list; box_from : point; box_to : point
                         right_inverse : matrix; box_width : Big_int_Z.big_int;
                         rate_width : Big_int_Z.big_int; left_null : Big_int_Z.big_int list }
 
-val add_multiple :
-  Big_int_Z.big_int -> Big_int_Z.big_int list -> Big_int_Z.big_int list -> Big_int_Z.big_int
-  list
-
 val scatter :
   Big_int_Z.big_int -> sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int list
-
-val row_times : matrix -> sparse_row -> Big_int_Z.big_int list
 
 val absolute_dot : sparse_row -> Big_int_Z.big_int list -> Big_int_Z.big_int
 
@@ -1021,12 +1024,6 @@ type sign_evidence =
 | Remainder of reduction
 | Parts of near * point list * near
 
-val low_on :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
-
-val high_on :
-  Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial -> Big_int_Z.big_int
-
 val slope_interval :
   Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> polynomial ->
   ((Big_int_Z.big_int * Big_int_Z.big_int) * Big_int_Z.big_int) * Big_int_Z.big_int
@@ -1037,10 +1034,6 @@ val slope_low :
 val check_value : value -> bool
 
 val low_of : value -> polynomial -> Big_int_Z.big_int
-
-val same_poly : polynomial -> polynomial -> bool
-
-val reduces_by : polynomial -> polynomial -> reduction -> bool
 
 val power_poly : polynomial -> int -> polynomial
 
@@ -1124,10 +1117,6 @@ val times_entry : pencil -> int -> int -> polynomial -> polynomial
 
 val column_poly : pencil -> poly_vector -> int -> polynomial
 
-val product_with : poly_vector -> sparse_row -> polynomial
-
-val row_poly : pencil -> poly_vector -> int -> polynomial
-
 val check_refutation : pencil -> region -> place -> refutation -> bool
 
 val check_branch : pencil -> region -> place -> branch -> bool
@@ -1189,8 +1178,6 @@ val add_matrix : matrix -> matrix -> matrix
 val add_series : matrix list -> matrix list -> matrix list
 
 val scale_series : Big_int_Z.big_int -> matrix list -> matrix list
-
-val combine : matrix -> sparse_row -> Big_int_Z.big_int list
 
 val product : sparse_row list -> matrix -> matrix
 
@@ -1835,7 +1822,7 @@ type equilibrium_evidence =
 | BoxAround of Big_int_Z.big_int list * matrix * Big_int_Z.big_int
 
 val dominated_row :
-  matrix -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row -> bool
+  polynomial list -> Big_int_Z.big_int list -> Big_int_Z.big_int -> int -> sparse_row -> bool
 
 val check_rows : int -> sparse_row list -> sparse_row list -> equilibrium_evidence -> bool
 
