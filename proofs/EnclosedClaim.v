@@ -653,16 +653,12 @@ by move=> below; apply: le_lt_trans hi _; rewrite -toRD toR_lt0.
 Qed.
 
 (* At an end u' T_e x is u_k times row k. *)
-Lemma left_pivot e t x : toR e.1 = t * toR e.2 -> (forall l, l \in K -> row A B J t x l = 0) ->
+Lemma left_row e t x : toR e.1 = t * toR e.2 -> (forall l, l \in K -> row A B J t x l = 0) ->
   left_at e (on_active x) = toR (nth 0%Z (left_null c) k) * (toR e.2 * row A B J t x k).
 Proof.
-move=> e1 rows; have rowE l : \sum_(j <- J) T_end e l j * on_active x j =
-    toR e.2 * row A B J t x l.
-  rewrite /row mulr_sumr; apply: sum_eq => j jJ; rewrite /on_active jJ.
-  rewrite /Enclosed.T_end e1 /Enclosed.T.
-  by move: (A _ _) (B _ _) (x _) => *; ring.
-rewrite /left_at (sum_pivot removed_active pivot_active uniq_active uniq_removed).
-by rewrite [X in _ + X]sum_zero ?addr0 ?rowE // => l lK; rewrite rowE rows // !mulr0.
+move=> e1 rows; rewrite -(left_pivot removed_active pivot_active uniq_active uniq_removed
+  (fun l => toR (nth 0%Z (left_null c) l)) e1 rows).
+by apply: eq_bigr => l _; congr (_ * _); apply: sum_eq => j jJ; rewrite /on_active jJ.
 Qed.
 
 Lemma null_vector_near : exists t x,
@@ -673,13 +669,8 @@ have [[_ _ o to2] [_ [_ change signs]]] := enclosed_parts.
 have F2 : 0 < toR (box_from c).2 :> R by case/and5P: o => _ ? _ _ _; rewrite toR_gt0.
 have T2 : 0 < toR (box_to c).2 :> R by rewrite toR_gt0.
 have vk : 0 < V k by case/and3P: signs; rewrite toR_gt0.
-pose ta : R := toR (box_from c).1 / toR (box_from c).2.
-pose tb : R := toR (box_to c).1 / toR (box_to c).2.
-have betweenE t : ta <= t <= tb -> between t (box_from c) (box_to c).
-  by rewrite /ta /tb ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
-have tab : ta <= tb.
-  rewrite /ta /tb ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
-  by case/and5P: o => _ _ _ _ /andP[].
+have [tab e1 e2 betweenE] := ends_of R o to2.
+set ta := _ / _ in tab e1 betweenE; set tb := _ / _ in tab e2 betweenE.
 have inj t : ta <= t <= tb -> injective_on K (T t) by move=> /betweenE; apply: regular_on_K.
 
 case/andP: change => uk change; have {}uk : 0 < toR (nth 0%Z (left_null c) k) :> R.
@@ -689,20 +680,12 @@ have [|t [x [tt xk rows]]] :=
   move=> x y xk yk rows_x rows_y.
   have near_x := near_center (betweenE _ (introT andP (conj (lexx ta) tab))) xk rows_x.
   have near_y := near_center (betweenE _ (introT andP (conj tab (lexx tb)))) yk rows_y.
-  have e1 : toR (box_from c).1 = ta * toR (box_from c).2 by rewrite /ta divfK // gt_eqF.
-  have e2 : toR (box_to c).1 = tb * toR (box_to c).2 by rewrite /tb divfK // gt_eqF.
-  have lx := left_pivot e1 rows_x; have ly := left_pivot e2 rows_y.
-  case/orP: change => /andP[s1 s2].
-    have x_neg : row A B J ta x k < 0.
-      by have := left_negative near_x s1; rewrite lx !pmulr_rlt0.
-    have y_pos : 0 < row A B J tb y k.
-      by have := left_positive near_y s2; rewrite ly !pmulr_rgt0.
-    by rewrite nmulr_rlt0.
-  have x_pos : 0 < row A B J ta x k.
-    by have := left_positive near_x s1; rewrite lx !pmulr_rgt0.
-  have y_neg : row A B J tb y k < 0.
-    by have := left_negative near_y s2; rewrite ly !pmulr_rlt0.
-  by rewrite pmulr_rlt0.
+  apply: (opposite_products uk F2 T2); rewrite -(left_row e1 rows_x) -(left_row e2 rows_y).
+  case/orP: change => /andP[s1 s2]; [left | right]; split.
+  - exact: (left_negative near_x s1).
+  - exact: (left_positive near_y s2).
+  - exact: (left_positive near_x s1).
+  exact: (left_negative near_y s2).
 
 exists t, x; split=> //; first exact: betweenE.
 by apply: (near_center (betweenE _ tt) xk) => l; rewrite removed_active => /andP[/rows].

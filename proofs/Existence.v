@@ -7,7 +7,8 @@
        phi(t) = v_k det T_JJ(t) / det T_KK(t).
 
    Theorem [polynomial_null_vector]: if phi(a) and phi(b) have opposite signs, then T(t) has a null
-   vector with x_k = v_k for some t in [a, b].  [null_vector_exists]: the same for T(t) = A + t B.
+   vector with x_k = v_k for some t in [a, b].  [family_null_vector]: the same for T(t) of which a
+   multiple has polynomials as entries; [null_vector_exists]: for T(t) = A + t B.
 
    R is a real closed field here: a polynomial that changes its sign has a root.  det T_KK has no
    root in [a, b], so det T_JJ changes its sign; it has a root t, and T_JJ(t) has a kernel.
@@ -219,6 +220,32 @@ rewrite [X in _ = X]mxE mxE (block_mul uniq_K (T t) _ (Ordinal li)) => e; rewrit
 by congr (_ + _); rewrite [RHS]mxE big_ord1 [X in _ = X * _]mxE.
 Qed.
 
+(* The same for a family F, with d(t) F(t) = T(t) and d(t) not 0. *)
+Theorem family_null_vector (F : R -> nat -> nat -> R) (d : {poly R}) a b :
+  a <= b -> (forall t, a <= t <= b -> d.[t] != 0) ->
+  (forall t i j, a <= t <= b -> i \in J -> j \in J -> T t i j = d.[t] * F t i j) ->
+  (forall t, a <= t <= b -> injective_on K (F t)) ->
+  (forall x y, x k = vk -> y k = vk ->
+     (forall l, l \in K -> \sum_(j <- J) F a l j * x j = 0) ->
+     (forall l, l \in K -> \sum_(j <- J) F b l j * y j = 0) ->
+     (\sum_(j <- J) F a k j * x j) * (\sum_(j <- J) F b k j * y j) < 0) ->
+  exists t x, [/\ a <= t <= b, x k = vk & forall l, l \in J -> \sum_(j <- J) F t l j * x j = 0].
+Proof.
+move=> ab d0 TE inj opposite; have K_sub l : l \in K -> l \in J by rewrite K_J => /andP[].
+have rowE t x l : a <= t <= b -> l \in J -> row t x l = d.[t] * \sum_(j <- J) F t l j * x j.
+  by move=> tt lJ; rewrite /row mulr_sumr; apply: sum_eq => j jJ; rewrite TE // mulrA.
+have zero t x l : a <= t <= b -> l \in J -> row t x l = 0 -> \sum_(j <- J) F t l j * x j = 0.
+  by move=> tt lJ; rewrite rowE // => /eqP; rewrite mulf_eq0 (negbTE (d0 t tt)) => /eqP.
+have [at_a at_b] : (a <= a <= b) /\ (a <= b <= b) by rewrite !lexx ab.
+have [|x y xk yk rows_x rows_y|t [x [tt xk rows]]] := polynomial_null_vector ab.
+- move=> t tt z rows; apply: (inj t tt) => l lK; apply: (mulfI (d0 t tt)).
+  rewrite mulr0 -[RHS](rows l lK) mulr_sumr; apply: sum_eq => j jK.
+  by rewrite TE ?K_sub // mulrA.
+- rewrite !rowE // mulrACA pmulr_rlt0; first by apply: opposite => // l lK; apply: zero; auto.
+  by rewrite ltNge; apply/negP=> /(root_between ab)[t tt /rootP]; apply/eqP/d0.
+by exists t, x; split=> // l lJ; apply: zero; auto.
+Qed.
+
 End Exist.
 
 (* The same for a pencil. *)
@@ -246,15 +273,30 @@ Theorem null_vector_exists a b :
      row a x k * row b y k < 0) ->
   exists t x, [/\ a <= t <= b, x k = vk & forall l, l \in J -> row t x l = 0].
 Proof.
-have rowE t x l : poly_row linear_entry J t x l = row t x l.
-  by apply: eq_bigr => j _; rewrite linear_entryE.
-move=> ab inj opposite.
-have [|x y xk yk rows_x rows_y|t [x [tab xk null]]] :=
-    polynomial_null_vector (poly_entry := linear_entry) K_J k_J uniq_J uniq_K vk0 ab.
-- move=> t tab z rows_z; apply: (inj t tab) => l lK; apply: etrans (rows_z l lK).
-  by apply: eq_bigr => j _; rewrite linear_entryE.
-- by rewrite !rowE; apply: opposite => // l lK; rewrite -rowE; auto.
-by exists t, x; split=> // l lJ; rewrite -rowE null.
+move=> ab; apply: (family_null_vector (poly_entry := linear_entry) K_J k_J uniq_J uniq_K vk0 (d := 1)) => // t *.
+  by rewrite hornerC oner_neq0.
+by rewrite hornerC mul1r linear_entryE.
+Qed.
+
+(* A vector on the left of T at a point, if the rows K vanish. *)
+Lemma left_pivot (u : nat -> R) e t x : toR e.1 = t * toR e.2 ->
+  (forall l, l \in K -> row t x l = 0) ->
+  \sum_(l <- J) u l * (\sum_(j <- J) T_end A B e l j * x j) = u k * (toR e.2 * row t x k).
+Proof.
+move=> e1 rows; have rowE l : \sum_(j <- J) T_end A B e l j * x j = toR e.2 * row t x l.
+  rewrite /row mulr_sumr; apply: eq_bigr => j _; rewrite /T_end e1 /Enclosed.T.
+  by move: (A _ _) (B _ _) (x _) => *; ring.
+rewrite (sum_pivot K_J k_J uniq_J uniq_K) rowE [X in _ + X]sum_zero ?addr0 // => l lK.
+by rewrite rowE rows // !mulr0.
 Qed.
 
 End Linear.
+
+(* Opposite signs of multiples. *)
+Lemma opposite_products (R : realFieldType) (u q q' s s' : R) : 0 < u -> 0 < q -> 0 < q' ->
+  u * (q * s) < 0 /\ 0 < u * (q' * s') \/ 0 < u * (q * s) /\ u * (q' * s') < 0 -> s * s' < 0.
+Proof.
+move=> u0 q0 q0'; rewrite !(pmulr_rlt0 _ u0, pmulr_rgt0 _ u0, pmulr_rlt0 _ q0, pmulr_rgt0 _ q0,
+  pmulr_rlt0 _ q0', pmulr_rgt0 _ q0').
+by case=> -[a b]; [rewrite nmulr_rlt0 | rewrite pmulr_rlt0].
+Qed.

@@ -245,35 +245,8 @@ split=> //; first by split=> //; rewrite toR_gt0.
 by move=> i Hi still c Hc0; have := rest i Hi; rewrite (negbTE still) orFb => /allP/(_ c Hc0).
 Qed.
 
-Lemma ends : [/\ 0 < toR (lower r).2 :> R, 0 < toR (upper r).2 :> R, ta <= tb &
-  forall t, ta <= t <= tb -> between t (lower r) (upper r)].
-Proof.
-have [[_ fin _] _ _ _ _] := checked_parts.
-have l2 : 0 < toR (lower r).2 :> R by case/and5P: O => _ ? _ _ _; rewrite toR_gt0.
-have u2 : 0 < toR (upper r).2 :> R by rewrite toR_gt0.
-split=> //.
-  rewrite /ta /tb ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
-  by case/and5P: O => _ _ _ _ /andP[].
-by move=> t; rewrite /ta /tb ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
-Qed.
-
-Lemma poly_rowE t x i : between t (lower r) (upper r) -> i \in J ->
-  poly_row N J t x i = d.[t] * family_row t x i.
-Proof.
-move=> bt iJ; rewrite /poly_row mulr_sumr; apply: sum_eq => j jJ.
-have [Hi Hj] := (moving_index iJ, moving_index jJ).
-by rewrite /poly_at N_family // mulrA.
-Qed.
-
-Lemma rows_vanish t x i : between t (lower r) (upper r) -> i \in J ->
-  poly_row N J t x i = 0 -> family_row t x i = 0.
-Proof.
-move=> bt iJ; rewrite poly_rowE // => /eqP.
-by rewrite mulf_eq0 (negbTE (d_regular bt)) => /eqP.
-Qed.
-
 (* T(t) is regular on K. *)
-Lemma family_injective t : between t (lower r) (upper r) -> injective_on K (poly_at N t).
+Lemma family_injective t : between t (lower r) (upper r) -> injective_on K (F t).
 Proof.
 move=> bt z rows i iK; have [_ rows_ok _ _ _] := checked_parts.
 have [A [B [A' [B' [E E' on]]]]] := near bt.
@@ -282,8 +255,7 @@ pose x j := if j == k then 0 else z j.
 have x_others j : j \in K -> x j = z j by rewrite mem_filter /x => /andP[/negbTE->].
 have K_J j : (j \in K) = (j \in J) && (j != k) by rewrite mem_filter andbC.
 have rows_x n : n \in K -> family_row t x n = 0.
-  move=> nK; apply: (rows_vanish bt (others_J nK)); rewrite -[RHS](rows n nK).
-  rewrite /poly_row (sum_pivot K_J pivot_moving); last 2 first.
+  move=> nK; rewrite -[RHS](rows n nK) /moving_row (sum_pivot K_J pivot_moving); last 2 first.
   - by rewrite filter_uniq ?iota_uniq.
   - by rewrite !filter_uniq ?iota_uniq.
   by rewrite {1}/x eqxx mulr0 add0r; apply: sum_eq => j jK; rewrite x_others.
@@ -332,38 +304,27 @@ Theorem piece_exists : exists t x, [/\ between t (lower r) (upper r),
     [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
 have [[dec fin V_gt0] rows_ok pos rest [start finish ne]] := checked_parts.
-have [l2 u2 tab inside] := ends.
-have at_a : ta <= ta <= tb by rewrite lexx.
-have at_b : ta <= tb <= tb by rewrite lexx andbT.
+have [tab ea eb inside] := ends_of R O fin; rewrite -/ta -/tb in tab ea eb inside.
 have K_J j : (j \in K) = (j \in J) && (j != k) by rewrite mem_filter andbC.
 have uJ : uniq J by rewrite filter_uniq ?iota_uniq.
 have uK : uniq K by rewrite filter_uniq.
-have [|t [x [tt xk null]]] :=
-    polynomial_null_vector K_J pivot_moving uJ uK V_gt0 tab
-      (fun t tt => family_injective (inside t tt)).
-  move=> x y xk yk rows_x rows_y.
-  have {}rows_x i : i \in K -> family_row ta x i = 0.
-    by move=> iK; apply: rows_vanish (inside _ at_a) (others_J iK) (rows_x i iK).
-  have {}rows_y i : i \in K -> family_row tb y i = 0.
-    by move=> iK; apply: rows_vanish (inside _ at_b) (others_J iK) (rows_y i iK).
+have [|||t [x [tt xk null]]] := family_null_vector (poly_entry := N) (F := F) (d := d)
+    K_J pivot_moving uJ uK V_gt0 tab _ _ (fun t tt => family_injective (inside t tt)).
+- by move=> t /inside/d_regular.
+- by move=> t i j /inside bt iJ jJ; apply: N_family; rewrite // (moving_index iJ, moving_index jJ).
+- move=> x y xk yk rows_x rows_y.
   have sx : 0 < regular_side R (presence_start w) * family_row ta x k.
     apply: (edge_sign same_s same_s' near_s rows_s _ start) => //; last by rewrite xk.
-    by move=> A B A' B'; apply: lower_weights; rewrite ?/ta ?divfK ?gt_eqF.
+    by move=> A B A' B'; apply: lower_weights.
   have sy : 0 < regular_side R (presence_finish w) * family_row tb y k.
     apply: (edge_sign same_f same_f' near_f rows_f _ finish) => //; last by rewrite yk.
-    by move=> A B A' B'; apply: upper_weights; rewrite ?/tb ?divfK ?gt_eqF.
-  rewrite !poly_rowE ?pivot_moving //; try exact: inside.
-  have d_same : 0 < d.[ta] * d.[tb].
-    rewrite ltNge; apply/negP=> /(root_between tab)[t tt /rootP]; apply/eqP.
-    exact/d_regular/inside.
-  rewrite mulrACA pmulr_rlt0 //; move: ne sx sy; rewrite /regular_side.
+    by move=> A B A' B'; apply: upper_weights.
+  move: ne sx sy; rewrite /regular_side.
   case: (regular_minus _); case: (regular_minus _) => // _; rewrite mulN1r mul1r oppr_gt0 => sx sy.
     by rewrite nmulr_rlt0.
   by rewrite pmulr_rlt0.
-
 have bt := inside t tt; pose s j := if j \in J then x j else 0.
-have {}null i : i \in J -> family_row t x i = 0.
-  by move=> iJ; apply: rows_vanish bt iJ (null i iJ).
+have {}null i : i \in J -> family_row t x i = 0 by apply: null.
 have rows i : i \in K -> family_row t x i = 0 by move/others_J/null.
 have [A [B [A' [B' [E E' on]]]]] := near bt.
 have [weight ws] := box_weights A B A' B' O bt f0 g0 fg.

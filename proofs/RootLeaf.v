@@ -438,13 +438,6 @@ Proof.
 by move=> on lJ; apply: sum_eq => j jJ; rewrite on //; apply: (moving_indices (r := r)).
 Qed.
 
-Lemma poly_rowE (t : R) x l : between t (lower r) (upper r) -> l \in J ->
-  poly_row N J t x l = f.[t] * family_row t x l.
-Proof.
-move=> bt lJ; rewrite /poly_row mulr_sumr; apply: sum_eq => j jJ.
-by rewrite /poly_at N_family // ?mulrA //; apply: (moving_indices (r := r)).
-Qed.
-
 Lemma family_exists : exists t x,
   [/\ between t (from_point c) (to_point c), boxed (K k) k v eps x &
       forall l, l \in J -> family_row t x l = 0].
@@ -455,34 +448,18 @@ have vk0 : 0 < toR (nth 0%Z v k) :> R by rewrite toR_gt0.
 have F2 : 0 < toR (from_point c).2 :> R by case/and5P: o => _ ? _ _ _; rewrite toR_gt0.
 have T2 : 0 < toR (to_point c).2 :> R by rewrite toR_gt0.
 have eps0 : 0 <= toR eps :> R := eps_ge0 R L.
-pose ta : R := toR (from_point c).1 / toR (from_point c).2.
-pose tb : R := toR (to_point c).1 / toR (to_point c).2.
-
-have betweenE t : ta <= t <= tb -> between t (from_point c) (to_point c).
-  by rewrite /ta /tb ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
-have tab : ta <= tb.
-  rewrite /ta /tb ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
-  by case/and5P: o => _ _ _ _ /andP[].
+have [tab e1 e2 betweenE] := ends_of R o to2.
+set ta := _ / _ in tab e1 betweenE; set tb := _ / _ in tab e2 betweenE.
 have K_sub l : l \in K k -> l \in J by rewrite others_moving => /andP[].
-have regular_f t : ta <= t <= tb -> f.[t] != 0 by move=> /betweenE/inside/f_regular.
-
-(* Rows of f T that vanish. *)
-have rows_T t x l : ta <= t <= tb -> l \in J -> poly_row N J t x l = 0 -> family_row t x l = 0.
-  move=> tt lJ; rewrite poly_rowE //; last exact/inside/betweenE.
-  by move/eqP; rewrite mulf_eq0 (negbTE (regular_f _ tt)) => /eqP.
 
 (* Regular on K, and boxed. *)
-have inj t : ta <= t <= tb -> injective_on (K k) (poly_at N t).
-  move=> tt z rows; have bt := betweenE _ tt; have [A [B [E on]]] := line_at (inside bt).
+have inj t : ta <= t <= tb -> injective_on (K k) (T t).
+  move=> /betweenE bt z rows; have [A [B [E on]]] := line_at (inside bt).
   have [a [b [comb _]]] := combination_of_weights A B o bt.
   apply: (regular_sound E (@moving_indices P r) (@others_moving P r k) (uniq_others P r k)
             narrow comb p q p' q') => l lK.
-  have : f.[t] * (\sum_(j <- K k) Enclosed.T A B t l j * z j) = 0.
-    have Hl := moving_indices (K_sub _ lK).
-    rewrite -[RHS](rows l lK) mulr_sumr; apply: sum_eq => j jK.
-    have Hj := moving_indices (K_sub _ jK).
-    by rewrite /poly_at (N_family (inside bt)) // on // mulrA.
-  by move/eqP; rewrite mulf_eq0 (negbTE (regular_f _ tt)) => /eqP.
+  rewrite -[RHS](rows l lK); apply: sum_eq => j jK.
+  by rewrite on //; apply/moving_indices/K_sub.
 have boxed_at A B t x : encloses P A B -> on_pencil A B t -> ta <= t <= tb ->
     x k = toR (nth 0%Z v k) ->
     (forall l, l \in K k -> family_row t x l = 0) -> boxed (K k) k v eps x.
@@ -493,55 +470,33 @@ have boxed_at A B t x : encloses P A B -> on_pencil A B t -> ta <= t <= tb ->
 
 case/andP: change => uk change; have {}uk : 0 < toR (nth 0%Z (left_vector c) k) :> R.
   by rewrite toR_gt0.
-have left_k A B e t x : on_pencil A B t -> 0 < toR e.2 :> R -> toR e.1 = t * toR e.2 ->
+have left_k A B e t x : on_pencil A B t -> toR e.1 = t * toR e.2 ->
     (forall l, l \in K k -> family_row t x l = 0) ->
     left_at P A B r x e (left_vector c) =
       toR (nth 0%Z (left_vector c) k) * (toR e.2 * family_row t x k).
-  move=> on e2 e1 rows; have rowE l : l \in J ->
-      row_at P A B r x e l = toR e.2 * family_row t x l.
-    move=> lJ; rewrite (pencil_row _ on) // /row_at /row mulr_sumr; apply: eq_bigr => j _.
-    by rewrite /T_end e1 /Enclosed.T; move: (A _ _) (B _ _) (x _) => *; ring.
-  rewrite /left_at (sum_pivot (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k)).
-  rewrite [X in _ + X]sum_zero ?addr0 => [|l lK]; first by rewrite rowE.
-  by rewrite rowE ?K_sub // rows // !mulr0.
+  move=> on e1' rows; rewrite (pencil_row _ on) //; apply: (left_pivot (@others_moving P r k)
+    kJ (uniq_moving P r) (uniq_others P r k)) => // l lK.
+  by rewrite -(pencil_row _ on) ?rows ?K_sub.
 
-have [|t [x [tt xk rows]]] :=
-    polynomial_null_vector (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k) vk0
-      tab inj.
+have [|||t [x [tt xk rows]]] := family_null_vector (poly_entry := N) (F := T) (d := f)
+    (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k) vk0 tab _ _ inj.
+- by move=> t /betweenE/inside/f_regular.
+- by move=> t i j /betweenE/inside bt iJ jJ; apply: N_family; rewrite // (moving_indices iJ, moving_indices jJ).
+- move=> x y xk yk rows_x rows_y.
   have at_a : ta <= ta <= tb by rewrite lexx.
   have at_b : ta <= tb <= tb by rewrite lexx andbT.
-  move=> x y xk yk rows_x rows_y.
-  have {}rows_x l : l \in K k -> family_row ta x l = 0.
-    by move=> lK; apply: rows_T => //; [apply: K_sub | apply: rows_x].
-  have {}rows_y l : l \in K k -> family_row tb y l = 0.
-    by move=> lK; apply: rows_T => //; [apply: K_sub | apply: rows_y].
   have [A [B [E on]]] := line_at (inside (betweenE _ at_a)).
   have [A' [B' [E' on']]] := line_at (inside (betweenE _ at_b)).
   have bx := boxed_at _ _ _ _ E on at_a xk rows_x.
   have by_ := boxed_at _ _ _ _ E' on' at_b yk rows_y.
-  have e1 : toR (from_point c).1 = ta * toR (from_point c).2.
-    by rewrite /ta divfK // gt_eqF.
-  have e2 : toR (to_point c).1 = tb * toR (to_point c).2 by rewrite /tb divfK // gt_eqF.
-  have lx := left_k _ _ _ _ _ on F2 e1 rows_x; have ly := left_k _ _ _ _ _ on' T2 e2 rows_y.
-  rewrite !poly_rowE //; try exact/inside/betweenE.
+  apply: (opposite_products uk F2 T2).
+  rewrite -(left_k _ _ _ _ _ on e1 rows_x) -(left_k _ _ _ _ _ on' e2 rows_y).
+  case/orP: change => /andP[s1 s2]; [left | right]; split.
+  + exact: (left_negative_sound E kJ eps0 bx p q s1).
+  + exact: (left_positive_sound E' kJ eps0 by_ p' q' s2).
+  + exact: (left_positive_sound E kJ eps0 bx p q s1).
+  exact: (left_negative_sound E' kJ eps0 by_ p' q' s2).
 
-  (* f has the same sign at both points. *)
-  have f_same : 0 < f.[ta] * f.[tb].
-    rewrite ltNge; apply/negP=> /(root_between tab)[t tt /rootP]; apply/eqP; exact: regular_f.
-  rewrite mulrACA pmulr_rlt0 //.
-  case/orP: change => /andP[s1 s2].
-    have x_neg : family_row ta x k < 0.
-      by have := left_negative_sound E kJ eps0 bx p q s1; rewrite lx !pmulr_rlt0.
-    have y_pos : 0 < family_row tb y k.
-      by have := left_positive_sound E' kJ eps0 by_ p' q' s2; rewrite ly !pmulr_rgt0.
-    by rewrite nmulr_rlt0.
-  have x_pos : 0 < family_row ta x k.
-    by have := left_positive_sound E kJ eps0 bx p q s1; rewrite lx !pmulr_rgt0.
-  have y_neg : family_row tb y k < 0.
-    by have := left_negative_sound E' kJ eps0 by_ p' q' s2; rewrite ly !pmulr_rlt0.
-  by rewrite pmulr_rlt0.
-
-have {}rows l : l \in J -> family_row t x l = 0 by move=> lJ; apply: rows_T => //; apply: rows.
 exists t, x; split=> //; first exact: betweenE.
 have [A [B [E on]]] := line_at (inside (betweenE _ tt)).
 by apply: (boxed_at A B t) => // l lK; apply/rows/K_sub.

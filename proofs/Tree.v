@@ -232,6 +232,18 @@ rewrite /= in z; rewrite /a z toR0 mulr0 subr0 divr_gt0 //.
 by move: d0; rewrite /d z toR0 mulr0 subr0 pmulr_lgt0.
 Qed.
 
+(* The ends as numbers. *)
+Lemma ends_of lo hi (a := toR lo.1 / toR lo.2 : R) (b := toR hi.1 / toR hi.2 : R) :
+  ordered lo hi -> (0 <? hi.2)%Z ->
+  [/\ a <= b, toR lo.1 = a * toR lo.2, toR hi.1 = b * toR hi.2 &
+      forall t, a <= t <= b -> between t lo hi].
+Proof.
+case/and5P=> _ lo2 _ _ /andP[_ le] hi2; rewrite -(@toR_gt0 R) in lo2; rewrite -(@toR_gt0 R) in hi2.
+split=> [|||t]; rewrite /a /b ?divfK ?gt_eqF //.
+  by rewrite ler_pdivr_mulr // mulrAC ler_pdivl_mulr // -!toRM toR_le.
+by rewrite ler_pdivr_mulr // ler_pdivl_mulr // => /andP[].
+Qed.
+
 Lemma finite_end lo hi : ordered lo hi -> hi.2 <> 0%Z -> (0 <? hi.2)%Z.
 Proof. by case/and5P=> _ _ _ + _; move: hi.2 => q; lia. Qed.
 
