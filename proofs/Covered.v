@@ -310,3 +310,71 @@ by rewrite toRM (toR_late_dot R (le_N _ Hi) (le_N _ Hj)) mulr_sumr.
 Qed.
 
 End Shapes.
+
+(* The form of things that numbers name: item i stands where i stands in l. *)
+Section Lists.
+
+Variables (R : realFieldType) (T U : Type) (dT : T) (dU : U).
+Variables (s : T -> T -> Z) (product : U -> U -> Z) (strict : bool).
+Variables (l : seq nat) (items : seq T) (rows : seq U) (item : nat -> T) (x : nat -> R).
+Hypotheses (size_items : size items = size l) (size_rows : size rows == size l).
+Hypothesis itemE : forall k, (k < size l)%N -> nth dT items k = item (nth 0%N l k).
+Hypothesis grams : gram R (dT, dU) product (zip items rows).
+Hypothesis sym : forall i j, i \in l -> j \in l -> s (item i) (item j) = s (item j) (item i).
+Hypothesis checked : covered s product strict (zip items rows).
+
+Notation listed := (\sum_(i <- l) \sum_(j <- l) x i * toR (s (item i) (item j)) * x j).
+
+Lemma covered_list :
+  0 <= listed /\ (strict -> (exists2 i, i \in l & x i != 0) -> 0 < listed).
+Proof.
+have sz : size (zip items rows) = size l by rewrite size_zip size_items (eqP size_rows) minnn.
+have rowE k : (k < size l)%N -> (nth (dT, dU) (zip items rows) k).1 = item (nth 0%N l k).
+  by move=> lt_k; rewrite nth_zip ?size_items ?(eqP size_rows) //= itemE.
+have [|form0 form1] := covered_form (fun k => x (nth 0%N l k)) grams _ checked.
+  by move=> i j; rewrite sz => lt_i lt_j; rewrite !rowE // sym ?mem_nth.
+
+have -> : listed = form (dT, dU) s (zip items rows) (fun k => x (nth 0%N l k)).
+  rewrite /form sz (big_nth 0%N) /index_iota subn0; apply: sum_eq => i; rewrite mem_iota => /= lt_i.
+  rewrite (big_nth 0%N) /index_iota subn0; apply: sum_eq => j; rewrite mem_iota => /= lt_j.
+  by rewrite !rowE.
+split=> // st [i il xi]; apply: form1 => //; exists (index i l); last by rewrite nth_index.
+by rewrite mem_iota sz /= index_mem.
+Qed.
+
+Variables (idx : seq nat) (M : nat -> nat -> R) (sg c : R).
+Hypotheses (uniq_idx : uniq idx) (uniq_l : uniq l) (inside : {subset l <= idx}) (c0 : 0 < c).
+Hypothesis off : forall i, i \in idx -> i \notin l -> x i = 0.
+Hypothesis below : forall i j, i \in l -> j \in l ->
+  x i * toR (s (item i) (item j)) * x j <= x i * (c * (sg * (M i j + M j i))) * x j.
+
+Notation quadratic := (\sum_(i <- idx) \sum_(j <- idx) x i * M i j * x j).
+
+Lemma covered_quadratic :
+  0 <= sg * quadratic /\ (strict -> (exists2 i, i \in idx & x i != 0) -> 0 < sg * quadratic).
+Proof.
+have over (f : nat -> R) : (forall i, x i = 0 -> f i = 0) -> \sum_(i <- idx) f i = \sum_(i <- l) f i.
+  move=> f0; rewrite (bigID (fun i => i \in l)) /= [X in _ + X]big_seq_cond.
+  rewrite [X in _ + X]big1 ?addr0 => [|i /andP[Hi out]]; last exact/f0/off.
+  rewrite -big_filter; apply: perm_big; apply: uniq_perm; rewrite ?filter_uniq // => i.
+  by rewrite mem_filter; apply: andb_idr => /inside.
+have [form0 form1] := covered_list; have c2 : 0 < 2%:R * c by rewrite mulr_gt0 ?ltr0n.
+
+have le : listed <= 2%:R * c * (sg * quadratic).
+  have transposed : \sum_(i <- idx) \sum_(j <- idx) x i * M j i * x j = quadratic.
+    rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => j _ /=.
+    by move: (x i) (x j) (M _ _) => *; ring.
+  have -> : 2%:R * c * (sg * quadratic) = c * (sg * (quadratic + quadratic)).
+    by move: quadratic => *; ring.
+  rewrite -{2}transposed -big_split !mulr_sumr over => [|i xi]; last first.
+    by rewrite /= !sum_zero ?addr0 ?mulr0 // => j _; rewrite xi !mul0r.
+  apply: sum_le => i Hi; rewrite -big_split !mulr_sumr over => [|j xj]; last first.
+    by rewrite /= xj !mulr0 addr0 !mulr0.
+  apply: sum_le => j Hj; apply: le_trans (below Hi Hj) _; rewrite le_eqVlt; apply/orP; left.
+  by apply/eqP; rewrite /=; move: (x i) (x j) (M _ _) (M _ _) => *; ring.
+split; first by rewrite -(pmulr_rge0 _ c2) (le_trans form0).
+move=> st [i Hi xi]; rewrite -(pmulr_rgt0 _ c2) (lt_le_trans _ le) //; apply: form1 => //.
+by exists i => //; apply: contraNT xi => /(off Hi)->.
+Qed.
+
+End Lists.

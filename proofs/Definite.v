@@ -93,70 +93,23 @@ move=> Hi; rewrite mem_filter Hi andbT negbK => rest.
 by have := agrees_at ag Hi; move: rest; case: (state_of r i).
 Qed.
 
-Lemma sum_over_active (f : nat -> R) : (forall i, x i = 0 -> f i = 0) ->
-  \sum_(i <- indices P) f i = \sum_(i <- active P r) f i.
-Proof.
-move=> f0; rewrite /active big_filter [RHS]big_mkcond; apply: sum_eq => i Hi.
-case: ifP => // /negbFE rest; apply: f0; apply: zero_unless_active => //.
-by rewrite mem_filter rest.
-Qed.
-
 Lemma active_indices i : i \in active P r -> i \in indices P.
 Proof. by rewrite mem_filter => /andP[]. Qed.
 
 (* x' S_e x, written with the positions of the list of active variables. *)
-Lemma form_of_active e f : size (factor_rows f) == size (active P r) ->
-  form (0%N, [::]) (symmetric_part P negative e) (rows f)
-       (fun k => x (nth 0%N (active P r) k)) =
-  \sum_(i <- active P r) \sum_(j <- active P r)
-    x i * toR (symmetric_part P negative e i j) * x j.
-Proof.
-move=> /eqP sz; have szz : size (rows f) = size (active P r) by rewrite size_zip sz minnn.
-rewrite /form szz [RHS](big_nth 0%N) /index_iota subn0; apply: eq_bigr => i _.
-rewrite [RHS](big_nth 0%N) /index_iota subn0; apply: eq_bigr => j _.
-by rewrite !nth_zip.
-Qed.
-
 Lemma definite_end_sound strict e f :
   0 <= toR e.1 :> R -> 0 <= toR e.2 :> R -> definite_end P negative strict e r f ->
   0 <= sign * quadratic e /\
   (strict -> (exists2 i, i \in indices P & x i != 0) -> 0 < sign * quadratic e).
 Proof.
 move=> p q /and3P[w0 sz C].
-pose z k := x (nth 0%N (active P r) k).
-have szz : size (rows f) = size (active P r) by rewrite size_zip (eqP sz) minnn.
-
-have sym : symmetric_rows (0%N, [::]) (symmetric_part P negative e) (rows f).
-  by move=> i j _ _; apply: symmetric_part_sym.
-have [form0 form1] := covered_form z (weighted_gram R (0%N, [::]) (rows f) w0) sym C.
-
-(* x' S_e x <= 2 sign x' T_e x *)
-have form_le : form (0%N, [::]) (symmetric_part P negative e) (rows f) z <=
-               2%:R * (sign * quadratic e).
-  rewrite form_of_active //.
-  have -> : 2%:R * (sign * quadratic e) = \sum_(i <- active P r) \sum_(j <- active P r)
-               x i * (sign * (T_end A B e i j + T_end A B e j i)) * x j.
-    have transposed : \sum_(i <- indices P) \sum_(j <- indices P)
-                        x i * T_end A B e j i * x j = quadratic e.
-      rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => j _ /=.
-      by move: (x i) (x j) (T_end _ _ _ _ _) => *; ring.
-    have -> : 2%:R * (sign * quadratic e) = sign * (quadratic e + quadratic e).
-      by rewrite mulrCA -mulr2n mulr_natl.
-    rewrite -{2}transposed /quadratic -big_split mulr_sumr sum_over_active; last first.
-      move=> i xi; rewrite /= !sum_zero ?addr0 ?mulr0 // => j _; by rewrite xi !mul0r.
-    apply: eq_bigr => i _; rewrite -big_split mulr_sumr sum_over_active; last first.
-      by move=> j xj; rewrite /= xj !mulr0 addr0 mulr0.
-    apply: eq_bigr => j _ /=.
-    by move: (x i) (x j) (T_end _ _ _ _ _) (T_end _ _ _ _ _) sign => *; ring.
-  apply: sum_le => i /active_indices Hi; apply: sum_le => j /active_indices Hj.
-  by rewrite ler_wpmul2r ?x0 // ler_wpmul2l ?x0 // symmetric_part_le.
-
-split; first by rewrite -(@pmulr_rge0 _ 2%:R) ?ltr0n // (le_trans form0).
-
-move=> st [i Hi xi]; rewrite -(@pmulr_rgt0 _ 2%:R) ?ltr0n // (lt_le_trans _ form_le) //.
-have i_act : i \in active P r by apply: contraNT xi => /(zero_unless_active Hi)->.
-apply: form1 => //; exists (index i (active P r)); last by rewrite /z nth_index.
-by rewrite mem_iota add0n /= szz index_mem.
+apply: (covered_quadratic (dT := 0%N) (dU := [::]) (item := id) (c := 1) _ sz _
+  (weighted_gram R _ _ w0) _ C); rewrite ?filter_uniq ?iota_uniq ?ltr01 //.
+- by move=> *; apply: symmetric_part_sym.
+- exact: active_indices.
+- exact: zero_unless_active.
+move=> i j /active_indices Hi /active_indices Hj.
+by rewrite mul1r ler_wpmul2r ?x0 // ler_wpmul2l ?x0 // symmetric_part_le.
 Qed.
 
 End Sound.

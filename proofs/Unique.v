@@ -125,21 +125,12 @@ Lemma signed_end_sound strict e f : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
   (strict -> (exists2 i, i \in ix & x i != 0) -> 0 < 1 * quadratic P A B x e).
 Proof.
 move=> p q /and3P[w0 /eqP sz C]; rewrite mul1r.
-have szz : size (zip ix (factor_rows f)) = size_of P by rewrite size_zip sz size_iota minnn.
-have sym : symmetric_rows (0%N, [::]) (signed_part P e) (zip ix (factor_rows f)).
-  by move=> i j _ _; apply: signed_part_sym.
-have [form0 form1] := covered_form x (weighted_gram R (0%N, [::]) _ w0) sym C.
-have formE : form (0%N, [::]) (signed_part P e) (zip ix (factor_rows f)) x =
-    \sum_(i <- ix) \sum_(j <- ix) x i * toR (signed_part P e i j) * x j.
-  have at_row i : i \in ix -> (nth (0%N, [::]) (zip ix (factor_rows f)) i).1 = i.
-    rewrite mem_iota add0n => /= lt_i; rewrite nth_zip ?size_iota ?sz //=.
-    by rewrite nth_iota.
-  rewrite /form szz; apply: sum_eq => i Hi; apply: sum_eq => j Hj.
-  by rewrite !at_row.
-rewrite formE in form0 form1; have le := signed_part_le p q.
+have size_rows : size (factor_rows f) == size ix by rewrite size_iota sz.
+have [|i j _ _|form0 form1] := covered_list (dT := 0%N) (dU := [::]) (l := ix) (item := id) x
+  (erefl _) size_rows _ (weighted_gram R _ _ w0) _ C => //; first exact: signed_part_sym.
+have le := signed_part_le p q.
 split; first by rewrite -(@pmulr_rge0 _ 2%:R) ?ltr0n // (le_trans form0).
-move=> st [i Hi xi]; rewrite -(@pmulr_rgt0 _ 2%:R) ?ltr0n // (lt_le_trans _ le) //.
-by apply: form1 => //; exists i; rewrite // szz.
+by move=> st nonzero; rewrite -(@pmulr_rgt0 _ 2%:R) ?ltr0n // (lt_le_trans _ le) // form1.
 Qed.
 
 (* Between definite ends the pencil has the property of a P-matrix. *)

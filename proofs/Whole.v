@@ -129,19 +129,6 @@ case state_j: (state_of r j) => // _;
   by move/negP: not_listed; case; apply/mapP; exists j; rewrite // mem_filter mem_iota state_j.
 Qed.
 
-Lemma sum_over_may_move (f : nat -> R) : (forall i, x i = 0 -> f i = 0) ->
-  \sum_(i <- indices) f i = \sum_(i <- may_move Q r) f i.
-Proof.
-move=> f0; rewrite (bigID (fun i => i \in may_move Q r)) /= [X in _ + X]big_seq_cond.
-rewrite [X in _ + X]big1 ?addr0 => [|i /andP[Hi out]]; last first.
-  by apply: f0; apply: zero_unless_may_move.
-rewrite -big_filter; apply: perm_big; apply: uniq_perm.
-- by rewrite filter_uniq ?iota_uniq.
-- exact: uniq_may_move.
-move=> i; rewrite mem_filter; apply/andP/idP => [[]//|i_in].
-by split=> //; apply: may_move_indices.
-Qed.
-
 Notation nobody := ((0%N, ([::], [::])) : member).
 
 Lemma member_entryE e i j :
@@ -153,42 +140,6 @@ by move: (toR (nth _ _ _)) (toR (lookup _ _)) (toR (lookup _ _)) => *; ring.
 Qed.
 
 (* The integer form is 2 c times the form of the pencil, up to the sign. *)
-Lemma member_form_quadratic U (d : U) negative c e (rows : seq U) :
-  size rows == size (members Q weight r) ->
-  form (nobody, d) (member_form negative c e) (zip (members Q weight r) rows)
-       (fun k => x (nth 0%N (may_move Q r) k)) =
-  2%:R * (toR c * (sign R negative * whole_quadratic e)).
-Proof.
-move=> /eqP sz; set z := fun k => _.
-have szm : size (members Q weight r) = size (may_move Q r) by rewrite size_map.
-have szz : size (zip (members Q weight r) rows) = size (may_move Q r).
-  by rewrite size_zip sz minnn szm.
-pose G i j := toR c * (sign R negative * (end_entry e i j + end_entry e j i)).
-
-have formE : form (nobody, d) (member_form negative c e) (zip (members Q weight r) rows) z =
-             \sum_(i <- may_move Q r) \sum_(j <- may_move Q r) x i * G i j * x j.
-  rewrite /form szz [RHS]sum_positions; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
-  rewrite [RHS]sum_positions; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
-  rewrite !nth_zip /= ?sz // !(nth_map 0%N) // /G /z.
-  congr (_ * _ * _); rewrite /member_form toRM /sign; congr (_ * _); case: (negative).
-    by rewrite toRB toRN !member_entryE mulN1r [RHS]opprD.
-  by rewrite toRD !member_entryE mul1r.
-
-rewrite formE; have transposed :
-    \sum_(i <- indices) \sum_(j <- indices) x i * end_entry e j i * x j = whole_quadratic e.
-  rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => j _ /=.
-  by move: (x i) (x j) (end_entry _ _ _) => *; ring.
-have -> : 2%:R * (toR c * (sign R negative * whole_quadratic e)) =
-          toR c * (sign R negative * (whole_quadratic e + whole_quadratic e)).
-  by move: (whole_quadratic e) (toR c) (sign R negative) => *; ring.
-rewrite -{2}transposed /whole_quadratic -big_split !mulr_sumr sum_over_may_move; last first.
-  by move=> i xi; rewrite /= !sum_zero ?addr0 ?mulr0 // => j _; rewrite xi !mul0r.
-apply: eq_bigr => i _; rewrite -big_split !mulr_sumr sum_over_may_move; last first.
-  by move=> j xj; rewrite /= xj !mulr0 addr0 !mulr0.
-apply: eq_bigr => j _ /=; rewrite /G.
-by move: (x i) (x j) (end_entry _ _ _) (end_entry _ _ _) (toR c) (sign _ _) => *; ring.
-Qed.
-
 Lemma covered_end_sound U (d : U) product strict negative c e (rows : seq U) :
   (0 <? c)%Z -> size rows == size (members Q weight r) ->
   gram R (nobody, d) product (zip (members Q weight r) rows) ->
@@ -196,17 +147,17 @@ Lemma covered_end_sound U (d : U) product strict negative c e (rows : seq U) :
   0 <= sign R negative * whole_quadratic e /\
   (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
 Proof.
-move=> c0 sz gr cov; pose z k := x (nth 0%N (may_move Q r) k).
-have sym : symmetric_rows (nobody, d) (member_form negative c e) (zip (members Q weight r) rows).
-  by move=> i j _ _; apply: member_form_sym.
-have [] := covered_form z gr sym cov; rewrite member_form_quadratic //.
-have c_pos : 0 < toR c :> R by rewrite toR_gt0.
-rewrite pmulr_rge0 ?ltr0n // pmulr_rgt0 ?ltr0n // pmulr_rge0 // pmulr_rgt0 // => q0 q1.
-
-split=> // st [i Hi xi]; apply: q1 => //.
-have i_in : i \in may_move Q r by apply: contraNT xi => /(zero_unless_may_move Hi)->.
-exists (index i (may_move Q r)); last by rewrite /z nth_index.
-by rewrite mem_iota add0n /= size_zip (eqP sz) minnn size_map index_mem.
+move=> c0 sz gr cov; have szm : size (members Q weight r) = size (may_move Q r) by rewrite size_map.
+rewrite szm in sz; pose rows_of i := (weighted weight i (row_a Q i), weighted weight i (row_b Q i)).
+apply: (covered_quadratic (item := fun i => (i, rows_of i)) (c := toR c) szm sz _ gr _ cov);
+  rewrite ?iota_uniq ?uniq_may_move ?toR_gt0 //.
+- by move=> k lt_k; rewrite (nth_map 0%N).
+- by move=> *; apply: member_form_sym.
+- exact: may_move_indices.
+- exact: zero_unless_may_move.
+move=> i j _ _; rewrite /member_form toRM /sign; case: (negative).
+  by rewrite toRB toRN !member_entryE mulN1r opprD lexx.
+by rewrite toRD !member_entryE mul1r lexx.
 Qed.
 
 Lemma check_end_sound strict negative e w : check_end Q weight strict negative e r w ->
