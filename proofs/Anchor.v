@@ -444,38 +444,21 @@ Lemma family_identity d s i j : 0 < s -> bounded_below nf (F_at d) s ->
 Proof.
 move=> s0 below Hi Hj; have [q0 u0 _ [sa _ _ ->]] := expand_parts.
 set u := toR (anchor_unit a).
-have u_neq : u != 0 by rewrite gt_eqF.
-pose W k j := u^-1 * value (anchor_right a) d k j.
-pose V k i := u^-1 * value (anchor_left a) d k i.
-have rE k : k \in fi -> value r_series d k j = u * residual_r nf (F_at d) (G_at d) W j k.
-  move=> /in_free Hk; rewrite /residual_right value_residual // value_fs // /residual_r mulrBr.
-  congr (_ - _); rewrite mulr_sumr; apply: eq_bigr => m _.
-  by rewrite /W mulrCA mulVKf.
-have lE k : k \in fi -> value l_series d k i = u * residual_l nf (F_at d) (H_at d) V i k.
-  move=> /in_free Hk; rewrite /residual_left value_residual // value_sf // /residual_l mulrBr.
-  congr (_ - _); rewrite mulr_sumr; apply: eq_bigr => m _.
-  by rewrite /V mulrCA mulVKf.
-have solveE k : k \in fi -> solve nf (F_at d) (fun k => value r_series d k j) k =
-    u * solve nf (F_at d) (residual_r nf (F_at d) (G_at d) W j) k.
-  move=> Hk; apply/esym; move: k Hk; apply: (solve_unique s0 below) => k Hk.
-  rewrite rE // -(solveP s0 below (residual_r _ _ _ _ _) Hk) mulr_sumr.
-  by apply: eq_bigr => m _; rewrite mulrCA.
+pose W := value (anchor_right a) d; pose V := value (anchor_left a) d.
+have rE k : k \in fi -> value r_series d k j = residual_r nf (F_at d) (G_at d) u W j k.
+  by move=> /in_free Hk; rewrite /residual_right value_residual // value_fs.
+have lE k : k \in fi -> value l_series d k i = residual_l nf (F_at d) (H_at d) u V i k.
+  by move=> /in_free Hk; rewrite /residual_left value_residual // value_sf.
 
-rewrite /condensed_family (condensed_residual s0 (F_symmetric d) below _ _ _ W V) mulrBr.
-congr (_ - _); last first.
-  rewrite mulr_sumr; apply: sum_eq => k Hk; rewrite lE // solveE //.
-  by rewrite expr2; move: (residual_l _ _ _ _ _ _) (solve _ _ _ _) => *; ring.
+rewrite /condensed_family (condensed_residual s0 (F_symmetric d) below _ _ _ u W V).
+congr (_ - _); last by apply: sum_eq => k Hk; rewrite lE // (solve_ext _ rE).
 rewrite /expand_from /= /center_series value_add !value_scale value_add value_scale.
 have small_h : small Q [:: sf_block Q (row_0 Q a); sf_block Q (row_1 Q a)].
   by rewrite /small /= !size_map leqnn.
 rewrite !(value_cross (m := nf)) // value_ss // toRM -/u -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r.
-rewrite /approximate !mulrBr -expr2 opprD addrA; congr (_ - _ - _).
-  rewrite !mulr_sumr; apply: sum_eq => k /in_free Hk; rewrite value_sf // /W.
-  move: (value _ _ _ _) (H_at _ _ _) => w h.
-  by have -> : u ^+ 2 * (h * (u^-1 * w)) = u * (h * (u * (u^-1 * w))); [ring | rewrite mulVKf].
-rewrite !mulr_sumr; apply: sum_eq => k Hk; rewrite rE // /V.
-move: (value _ _ _ _) (residual_r _ _ _ _ _ _) => v x.
-by have -> : u ^+ 2 * (u^-1 * v * x) = (u * (u^-1 * v)) * (u * x); [ring | rewrite mulVKf].
+rewrite /approximate -expr2 opprD addrA; congr (_ - _ * _ - _).
+  by apply: sum_eq => k /in_free Hk; rewrite value_sf.
+by apply: sum_eq => k Hk; rewrite rE.
 Qed.
 
 End Expand.

@@ -283,14 +283,13 @@ rewrite /condensed_center /condensed_radius !tableE r_j Er -!map_comp.
 rewrite !(nth_map 0%N) ?size_iota // n_i n_j /=.
 
 set rr := residual_column D w (fs D) (right_w w) j; set ll := residual_column D w sf v i.
-pose z k := u * inverse_fs j k - at_ (right_w w) j k.
 pose L k : R := toR (nth 0%Z ll k); pose Rr k : R := toR (nth 0%Z rr k).
-
-(* F z = r *)
+pose residual := residual_r (free_count D) F (fun k j => at_ (fs D) j k) u
+  (fun k j => at_ (right_w w) j k) j.
+pose z := solve (free_count D) F residual.
+have RE k : k \in free_ix -> residual k = Rr k by move=> Hk; rewrite /Rr residual_columnE.
 have Fz k : k \in free_ix -> \sum_(k' <- free_ix) F k k' * z k' = Rr k.
-  move=> Hk; rewrite /Rr residual_columnE //; under eq_bigr do rewrite mulrBr mulrCA.
-  rewrite sumrB -mulr_sumr; congr (_ * _ - _).
-  exact: (solveP s0 below (at_ (fs D) j)).
+  by move=> Hk; rewrite (solveP s0 below) // RE.
 
 (* The error is scale l' z. *)
 have error : condensed_entry sf ss i j -
@@ -298,29 +297,16 @@ have error : condensed_entry sf ss i j -
          (unit_of w * unit_of w * entry ss i j -
           unit_of w * dot (row_of sf i) (row_of (right_w w) j) - dot (row_of v i) rr))%Z =
     - (scale_of i * \sum_(k <- free_ix) L k * z k).
-  rewrite toRM !toRB !toRM (toR_dot R _ size_sf) (toR_dot R _ size_v).
-  rewrite /condensed_entry -/(scale_of i).
-  have -> : \sum_(k <- free_ix) L k * z k =
-      u * (\sum_(k <- free_ix) at_ sf i k * (u * inverse_fs j k)) -
-      u * (\sum_(k <- free_ix) at_ sf i k * at_ (right_w w) j k) -
-      \sum_(k <- free_ix) at_ v i k * Rr k.
-    have -> : \sum_(k <- free_ix) L k * z k =
-        u * (\sum_(k <- free_ix) at_ sf i k * z k) -
-        \sum_(k <- free_ix) (\sum_(k' <- free_ix) F k k' * at_ v i k') * z k.
-      rewrite mulr_sumr -sumrB; apply: sum_eq => k Hk.
-      rewrite /L residual_columnE // mulrBl mulrA; congr (_ - _).
-    congr (_ - _).
-      by rewrite -mulrBr -sumrB; congr (_ * _); apply: eq_bigr => k _; rewrite mulrBr.
-    under eq_bigr do rewrite mulr_suml; rewrite exchange_big; apply: sum_eq => k Hk.
-    rewrite -Fz // mulr_sumr; apply: sum_eq => k' Hk'; rewrite (F_sym Hk' Hk).
-    by move: (F _ _) (at_ _ _ _) (z _) => *; ring.
-  have -> : \sum_(k <- free_ix) at_ sf i k * (u * inverse_fs j k) =
-            u * \sum_(k <- free_ix) at_ sf i k * inverse_fs j k.
-    by rewrite mulr_sumr; apply: eq_bigr => k _; rewrite mulrCA.
-  rewrite /at_ /Rr; set a := \sum_(k <- free_ix) _ * inverse_fs j k.
-  set b := \sum_(k <- free_ix) _ * toR (nth 0%Z (row_of (right_w w) j) k).
-  set c' := \sum_(k <- free_ix) _ * toR (nth 0%Z rr k).
-  by move: a b c' (toR (entry ss i j)) (toR (unit_of w)) (scale_of i) => a b c' e x s; ring.
+  have := condensed_residual s0 F_sym below (fun k j => at_ (fs D) j k) (at_ sf)
+    (fun i j => toR (entry ss i j)) u (fun k j => at_ (right_w w) j k) (fun k i => at_ v i k) i j.
+  rewrite -/residual -/z /condensed_entry -[scale_of i * _ * _]mulrA => ->.
+  have -> : \sum_(k <- free_ix) residual_l (free_count D) F (at_ sf) u (fun k i => at_ v i k) i k *
+      z k = \sum_(k <- free_ix) L k * z k.
+    by apply: sum_eq => k Hk; rewrite /L residual_columnE.
+  rewrite toRM !toRB !toRM (toR_dot R _ size_sf) (toR_dot R _ size_v) /approximate -/residual.
+  rewrite -/(scale_of i) [X in _ * (_ - _ - X - _)](sum_eq (g := fun k => at_ v i k * Rr k)).
+    by move: (\sum_(k <- free_ix) _) (\sum_(k <- free_ix) _) (\sum_(k <- free_ix) _) => *; ring.
+  by move=> k Hk; rewrite RE.
 
 rewrite error normrN normrM gtr0_norm ?scale_gt0 //.
 have norm_l : toR (norm1 ll) = \sum_(k <- free_ix) `|L k|.

@@ -49,6 +49,12 @@ Definition solve (b : nat -> R) :=
 Lemma block_unit : block fi F \in unitmx.
 Proof. by rewrite unitmxE unitfE block_det ?iota_uniq //; exact: eliminated_injective. Qed.
 
+Lemma solve_ext b b' : (forall i, i \in fi -> b i = b' i) -> solve b =1 solve b'.
+Proof.
+move=> same k; rewrite /solve; congr (at_index (_ *m _) _); apply/colP=> i.
+by rewrite !mxE same ?mem_nth.
+Qed.
+
 Lemma solveP b i : i \in fi -> \sum_(k <- fi) F i k * solve b k = b i.
 Proof.
 have U := iota_uniq 0 n; have unit_F := block_unit.
@@ -125,33 +131,39 @@ move=> part; have -> : \sum_(k <- fi) H i k * xf k =
 rewrite addrC -sumrB; apply: eq_bigr => j _; by rewrite -mulrBl.
 Qed.
 
-(* Any W and V; r = G - F W, l = H' - F V. *)
-Variables (W V : nat -> nat -> R).
+(* Any u, W and V; r = u G - F W, l = u H' - F V. *)
+Variables (u : R) (W V : nat -> nat -> R).
 
-Definition residual_r j k := G k j - \sum_(m <- fi) F k m * W m j.
-Definition residual_l i k := H i k - \sum_(m <- fi) F k m * V m i.
+Definition residual_r j k := u * G k j - \sum_(m <- fi) F k m * W m j.
+Definition residual_l i k := u * H i k - \sum_(m <- fi) F k m * V m i.
 
-Definition approximate i j :=
-  D i j - \sum_(k <- fi) H i k * W k j - \sum_(k <- fi) V k i * residual_r j k.
+Definition approximate i j := u ^+ 2 * D i j - u * (\sum_(k <- fi) H i k * W k j) -
+  \sum_(k <- fi) V k i * residual_r j k.
 
-Lemma condensed_residual i j :
-  condensed_at i j = approximate i j - \sum_(k <- fi) residual_l i k * solve (residual_r j) k.
+Lemma condensed_residual i j : u ^+ 2 * condensed_at i j =
+  approximate i j - \sum_(k <- fi) residual_l i k * solve (residual_r j) k.
 Proof.
 pose z := solve (residual_r j).
-have zE k : k \in fi -> solve (G^~ j) k = W k j + z k.
-  move=> Hk; apply/esym/(solve_unique (z := fun k => W k j + z k)) => // m Hm.
+have zE k : k \in fi -> u * solve (G^~ j) k = W k j + z k.
+  move=> Hk; transitivity (solve (fun m => u * G m j) k); last apply/esym; move: k Hk.
+    apply: solve_unique => m Hm; under eq_bigr do rewrite mulrCA.
+    by rewrite -mulr_sumr (solveP (G^~ j)).
+  apply: (solve_unique (z := fun k => W k j + z k)) => m Hm.
   under eq_bigr do rewrite mulrDr; rewrite big_split /= solveP // /residual_r.
   by rewrite addrC subrK.
-rewrite /condensed_at /approximate -/z.
-under eq_big_seq => k Hk do rewrite zE // mulrDr.
-rewrite big_split /= !opprD -!addrA; congr (_ + (_ + _)).
-have -> : \sum_(k <- fi) residual_l i k * z k = \sum_(k <- fi) H i k * z k -
+
+have -> : \sum_(k <- fi) residual_l i k * z k = u * (\sum_(k <- fi) H i k * z k) -
     \sum_(k <- fi) V k i * residual_r j k.
-  rewrite /residual_l; under eq_bigr do rewrite mulrBl; rewrite sumrB; congr (_ - _).
+  rewrite /residual_l; under eq_bigr do rewrite mulrBl; rewrite sumrB mulr_sumr; congr (_ - _).
+    by apply: eq_bigr => k _; rewrite mulrA.
   under eq_bigr do rewrite mulr_suml; rewrite exchange_big; apply: sum_eq => m Hm.
   rewrite -(solveP (residual_r j)) // mulr_sumr; apply: sum_eq => k Hk.
   by rewrite (sym Hm Hk) -/(z k); move: (F _ _) (V _ _) (z k) => *; ring.
-by rewrite opprB addrA addNr add0r.
+have solved : u * (\sum_(k <- fi) H i k * solve (G^~ j) k) =
+    \sum_(k <- fi) H i k * W k j + \sum_(k <- fi) H i k * z k.
+  by rewrite mulr_sumr -big_split; apply: sum_eq => k Hk /=; rewrite -mulrDr -zE // mulrCA.
+rewrite /condensed_at /approximate mulrBr expr2 -[u * u * \sum_(k <- fi) _]mulrA solved.
+by move: (\sum_(k <- fi) _) (\sum_(k <- fi) _) (\sum_(k <- fi) _) (D i j) => *; ring.
 Qed.
 
 End Elimination.
