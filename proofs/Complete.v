@@ -300,9 +300,8 @@ have image_B l : l \in moving P r -> \sum_(j <- indices P) B l j * slip_of Q X j
   by move: lJ; rewrite mem_filter => /andP[-> _] /Z.eqb_spec->; rewrite toR0 mulr0.
 
 exists (slip_of Q X) => [|l lJ]; first by rewrite /slip_of /X toR_eq0.
-rewrite -[RHS](image_B l lJ) [RHS](bigID (fun j => is_moving (state_of r j))) /=.
-rewrite [X in _ = _ + X]big_seq_cond [X in _ = _ + X]big1 ?addr0 /moving ?big_filter //.
-move=> j /andP[Hj /negbTE rest]; have := slip0 j Hj; rewrite rest => /Z.eqb_spec zero.
+rewrite -[RHS](image_B l lJ) [RHS](sum_support (p := fun j => is_moving (state_of r j))) //.
+move=> j Hj /negbTE rest; have := slip0 j Hj; rewrite rest => /Z.eqb_spec zero.
 by rewrite /slip_of /X zero toR0 mulr0.
 Qed.
 

@@ -353,11 +353,9 @@ Notation quadratic := (\sum_(i <- idx) \sum_(j <- idx) x i * M i j * x j).
 Lemma covered_quadratic :
   0 <= sg * quadratic /\ (strict -> (exists2 i, i \in idx & x i != 0) -> 0 < sg * quadratic).
 Proof.
-have over (f : nat -> R) : (forall i, x i = 0 -> f i = 0) -> \sum_(i <- idx) f i = \sum_(i <- l) f i.
-  move=> f0; rewrite (bigID (fun i => i \in l)) /= [X in _ + X]big_seq_cond.
-  rewrite [X in _ + X]big1 ?addr0 => [|i /andP[Hi out]]; last exact/f0/off.
-  rewrite -big_filter; apply: perm_big; apply: uniq_perm; rewrite ?filter_uniq // => i.
-  by rewrite mem_filter; apply: andb_idr => /inside.
+have over (f : nat -> R) : (forall i, x i = 0 -> f i = 0) ->
+  \sum_(i <- idx) f i = \sum_(i <- l) f i.
+  by move=> f0; apply: sum_subset => // i Hi out; apply/f0/off.
 have [form0 form1] := covered_list; have c2 : 0 < 2%:R * c by rewrite mulr_gt0 ?ltr0n.
 
 have le : listed <= 2%:R * c * (sg * quadratic).

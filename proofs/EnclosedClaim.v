@@ -375,18 +375,10 @@ by rewrite width_norm mulr_ge0 // toR_ge0 norm1_nonneg.
 Qed.
 
 (* Sums over all variables as sums over J and K. *)
-Lemma sum_over (l : pred nat) (f : nat -> R) :
-  (forall j, j \in variables -> ~~ l j -> f j = 0) ->
-  \sum_(j <- variables) f j = \sum_(j <- [seq j <- variables | l j]) f j.
-Proof.
-move=> f0; rewrite big_filter [RHS]big_mkcond; apply: sum_eq => j Hj.
-by case: ifPn => // /f0->.
-Qed.
-
 Lemma sum_over_J (f : nat -> R) : (forall j, j \in variables -> j \notin J -> f j = 0) ->
   \sum_(j <- variables) f j = \sum_(j <- J) f j.
 Proof.
-move=> f0; apply: sum_over => j Hj out; apply: f0 => //.
+move=> f0; apply: sum_support => j Hj out; apply: f0 => //.
 by rewrite active_mem Hj.
 Qed.
 

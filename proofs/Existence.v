@@ -273,7 +273,9 @@ Theorem null_vector_exists a b :
      row a x k * row b y k < 0) ->
   exists t x, [/\ a <= t <= b, x k = vk & forall l, l \in J -> row t x l = 0].
 Proof.
-move=> ab; apply: (family_null_vector (poly_entry := linear_entry) K_J k_J uniq_J uniq_K vk0 (d := 1)) => // t *.
+move=> ab.
+apply: (family_null_vector (poly_entry := linear_entry) K_J k_J
+  uniq_J uniq_K vk0 (d := 1)) => // t *.
   by rewrite hornerC oner_neq0.
 by rewrite hornerC mul1r linear_entryE.
 Qed.

@@ -258,11 +258,7 @@ have image0 : image P A B t x l = 0.
   have [l_s _|l_s /= l_b] := boolP (l \in known_support q); last exact: biactive.
   have [_ _ /eqP] := compl _ Hl; rewrite mulf_eq0 gt_eqF ?pos //=.
   by move/eqP.
-rewrite -[RHS]image0 /image [RHS](bigID (fun j => j \in J)) /=.
-rewrite [X in _ = _ + X]big_seq_cond [X in _ = _ + X]big1 ?addr0 => [|j /andP[Hj jJ]].
-  rewrite -[RHS]big_filter; have -> // : [seq j <- indices P | j \in J] = J.
-  by apply: eq_in_filter => j Hj; rewrite mem_filter Hj andbT.
-by rewrite zero ?mulr0.
+by rewrite -[RHS]image0 /image (sum_moving (r := r)) // => j Hj jJ; rewrite zero ?mulr0.
 Qed.
 
 (* Every solution of the region has the value t and, on J, the direction of x. *)

@@ -499,8 +499,7 @@ Lemma sum_decided (f x : nat -> R) : decided P r ->
   (forall j, j \in indices P -> ~~ is_moving (state_of r j) -> x j = 0) ->
   \sum_(j <- indices P) f j * x j = \sum_(j <- moving P r) f j * x j.
 Proof.
-move=> /allP dec rest; rewrite /moving big_filter [RHS]big_mkcond big_seq [RHS]big_seq.
-apply: eq_bigr => j Hj; case: ifP => // /negbT still; rewrite rest // mulr0 //.
+by move=> _ rest; apply: sum_support => j Hj /(rest j Hj)->; rewrite mulr0.
 Qed.
 
 End Order.

@@ -145,6 +145,13 @@ Definition check_absent (c : absence) :=
 
 End Checker.
 
+Lemma sum_moving (R : realFieldType) P r (f : nat -> R) :
+  (forall j, j \in indices P -> j \notin moving P r -> f j = 0) ->
+  \sum_(j <- indices P) f j = \sum_(j <- moving P r) f j.
+Proof.
+by move=> f0; apply: sum_support => j Hj still; apply: f0; rewrite // mem_filter negb_and still.
+Qed.
+
 Section Sound.
 
 Variable R : rcfType.
@@ -202,9 +209,7 @@ have positive j : j \in J -> 0 < x j.
 have zero i : i \in indices P -> i \notin J -> x i = 0 by apply: zero_off_J.
 split=> // l lJ; have [_ _ /eqP] := compl _ (moving_indices lJ).
 rewrite mulf_eq0 gt_eqF ?positive //= => /eqP; rewrite /image => row_zero.
-rewrite -[RHS]row_zero /moving big_filter [RHS](bigID (fun i => is_moving (state_of r i))) /=.
-rewrite [X in _ = _ + X]big_seq_cond [X in _ = _ + X]big1 ?addr0 // => i /andP[Hi nm].
-by rewrite zero ?mulr0 // mem_filter Hi andbT.
+by rewrite -[RHS]row_zero (sum_moving (r := r)) // => i Hi nm; rewrite zero ?mulr0.
 Qed.
 
 Lemma scaled_solution k V t x : k \in J -> (0 <? V)%Z -> solves t x -> in_region_of P t x r ->
@@ -357,12 +362,8 @@ Qed.
 Lemma row_of_solution t x : forall i,
   image P A B t (fun j => if j \in J then x j else 0) i = \sum_(j <- J) T t i j * x j.
 Proof.
-move=> i; rewrite /image (bigID (fun j => j \in J)) /= [X in _ + X]big1 => [|j /negbTE ->].
-  rewrite addr0 -big_filter.
-  have -> : [seq j <- indices P | j \in J] = J.
-    by apply: eq_in_filter => j Hj; rewrite mem_filter Hj andbT.
-  by apply: eq_big_seq => j ->.
-by rewrite mulr0.
+move=> i; rewrite /image (sum_moving (r := r)) => [|j _ /negbTE->]; last exact: mulr0.
+by apply: eq_big_seq => j ->.
 Qed.
 
 End Isolated.
@@ -481,7 +482,8 @@ have left_k A B e t x : on_pencil A B t -> toR e.1 = t * toR e.2 ->
 have [|||t [x [tt xk rows]]] := family_null_vector (poly_entry := N) (F := T) (d := f)
     (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k) vk0 tab _ _ inj.
 - by move=> t /betweenE/inside/f_regular.
-- by move=> t i j /betweenE/inside bt iJ jJ; apply: N_family; rewrite // (moving_indices iJ, moving_indices jJ).
+- by move=> t i j /betweenE/inside bt iJ jJ; apply: N_family;
+    rewrite // (moving_indices iJ, moving_indices jJ).
 - move=> x y xk yk rows_x rows_y.
   have at_a : ta <= ta <= tb by rewrite lexx.
   have at_b : ta <= tb <= tb by rewrite lexx andbT.
@@ -653,11 +655,7 @@ have [_ zero _] := solution_on_J D sol reg.
 have [_ _ compl] := sol; have [_ + _] := compl _ Hi; apply/negP; rewrite -ltNge.
 
 have imageE : f * image P A B t x i = \sum_(j <- J) T t i j * x' j.
-  rewrite /image mulr_sumr (bigID (fun j => j \in J)) /= [X in _ + X]big_seq_cond.
-  rewrite [X in _ + X]big1 ?addr0 => [|j /andP[Hj jJ]]; last by rewrite zero ?mulr0.
-  rewrite -big_filter.
-  have -> : [seq j <- indices P | j \in J] = J.
-    by apply: eq_in_filter => j Hj; rewrite mem_filter Hj andbT.
+  rewrite /image mulr_sumr (sum_moving (r := r)) => [|j Hj jJ]; last by rewrite zero ?mulr0.
   by apply: eq_big_seq => j jJ; rewrite -scaled // mulrCA.
 rewrite -(pmulr_rlt0 _ f0) imageE tt.
 have [a [b [comb _]]] := combination_of_weights A B o bt; have [a0 b0 ab _] := comb.

@@ -227,7 +227,9 @@ by case/and5P=> a0 ab d0 pa /andP[pb slope]; rewrite toR_ge0 toR_le toR_gt0.
 Qed.
 
 Lemma value_exists : exists s, is_value v s.
-Proof. by have [a0 ab d0 [pa pb _]] := value_parts; apply: root_on; rewrite // /changes_sign pa pb. Qed.
+Proof.
+by have [a0 ab d0 [pa pb _]] := value_parts; apply: root_on; rewrite // /changes_sign pa pb.
+Qed.
 
 Lemma rational_value s t : rational v -> is_value v s ->
   toR a <= toR d * t -> toR d * t <= toR b -> t = s.

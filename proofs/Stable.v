@@ -98,11 +98,8 @@ Lemma sum_moved x f : \sum_(i <- all_dofs) moved x i * f i =
 Proof.
 have [um _ _ _ _] := wf_parts wf_s.
 have -> : \sum_(i <- all_dofs) moved x i * f i = \sum_(i <- moving_dofs s) moved x i * f i.
-  rewrite (bigID (fun i => i \in moving_dofs s)) /= [X in _ + X]big_seq_cond.
-  rewrite [X in _ + X]big1 ?addr0 => [|i /andP[_ out]]; last by rewrite motion_zero ?mul0r.
-  rewrite -big_filter; apply: perm_big.
-  apply: uniq_perm => [||i]; rewrite ?filter_uniq ?iota_uniq //.
-  by rewrite mem_filter; apply: andb_idr => /(moving_dof_in wf_s).
+  apply: (sum_subset (iota_uniq _ _) um) => [i|i _ out]; first exact: (moving_dof_in wf_s).
+  by rewrite motion_zero ?mul0r.
 rewrite /moving_dofs /first_dofs /second_dofs !big_cat (big_map first_dof) (big_map second_dof).
 congr (_ + _).
   rewrite sum_positions; apply: sum_eq => k; rewrite mem_iota add0n => /= lt_k.

@@ -53,6 +53,22 @@ move=> f0 [i il fi]; rewrite -oppr_lt0 -sumrN; apply: sum_lt0 => [j jl|].
 by exists i => //; rewrite oppr_lt0.
 Qed.
 
+(* A sum over the members where the terms do not vanish. *)
+Lemma sum_support l (p : pred nat) f : (forall i, i \in l -> ~~ p i -> f i = 0) ->
+  \sum_(i <- l) f i = \sum_(i <- [seq i <- l | p i]) f i.
+Proof.
+move=> f0; rewrite big_filter [RHS]big_mkcond; apply: sum_eq => i Hi.
+by case: ifPn => // /f0->.
+Qed.
+
+Lemma sum_subset l l' f : uniq l -> uniq l' -> {subset l' <= l} ->
+  (forall i, i \in l -> i \notin l' -> f i = 0) -> \sum_(i <- l) f i = \sum_(i <- l') f i.
+Proof.
+move=> u u' inside f0; rewrite (sum_support f0); apply: perm_big; apply: uniq_perm => [||i] //.
+  exact: filter_uniq.
+by rewrite mem_filter; apply: andb_idr => /inside.
+Qed.
+
 (* A sum over a list that starts at a, as a sum over a list that starts at 0. *)
 Lemma sum_shift a n f : \sum_(k <- iota a n) f k = \sum_(k <- iota 0 n) f (a + k)%N.
 Proof.
