@@ -248,6 +248,23 @@ Qed.
 
 End Forms.
 
+(* A normal is a multiple of the tangent, turned. *)
+Lemma orthogonal (R : realFieldType) (t1 t2 n1 n2 l : R) : 0 < l ->
+  t1 ^+ 2 + t2 ^+ 2 = l -> 0 < n1 ^+ 2 + n2 ^+ 2 -> t1 * n1 + t2 * n2 = 0 ->
+  exists2 k, k != 0 & n1 = - (k * t2) /\ n2 = k * t1.
+Proof.
+move=> /lt0r_neq0 l0 tt nn tn; pose k := (t1 * n2 - t2 * n1) / l.
+have lk : l * k = t1 * n2 - t2 * n1 by rewrite /k mulrC divfK.
+have e1 : n1 = - (k * t2).
+  apply: (mulfI l0); rewrite mulrN mulrA lk -tt; apply/eqP; rewrite -subr_eq0; apply/eqP.
+  by rewrite -[RHS](mulr0 t1) -tn; ring.
+have e2 : n2 = k * t1.
+  apply: (mulfI l0); rewrite mulrA lk -tt; apply/eqP; rewrite -subr_eq0; apply/eqP.
+  by rewrite -[RHS](mulr0 t2) -tn; ring.
+exists k => //; apply: contraTneq nn => k0.
+by rewrite e1 e2 k0 !mul0r oppr0 expr0n addr0 ltxx.
+Qed.
+
 Section Sound.
 
 Variables (R : rcfType) (s : system) (u : unknown).
@@ -616,21 +633,18 @@ Definition variables_of (v : nat -> R) i :=
   else - (slip_rate v (particle s (i - nf)) / toR (unit_length s) ^+ 2).
 
 (* A vector of the plane that is perpendicular to n is a multiple of t. *)
-Lemma along_tangent (t1 t2 n1 n2 v1 v2 l : R) :
+Lemma along_tangent (t1 t2 n1 n2 v1 v2 l : R) : 0 < l ->
   t1 ^+ 2 + t2 ^+ 2 = l -> 0 < n1 ^+ 2 + n2 ^+ 2 -> t1 * n1 + t2 * n2 = 0 ->
   n1 * v1 + n2 * v2 = 0 ->
   t1 * (t1 * v1 + t2 * v2) = l * v1 /\ t2 * (t1 * v1 + t2 * v2) = l * v2.
 Proof.
-move=> tt nn tn nv; have cross : v1 * t2 - v2 * t1 = 0.
-  apply: (mulfI (lt0r_neq0 nn)); rewrite mulr0.
-  transitivity (n1 * ((n1 * v1 + n2 * v2) * t2 - (t1 * n1 + t2 * n2) * v2) +
-                n2 * (v1 * (t1 * n1 + t2 * n2) - t1 * (n1 * v1 + n2 * v2))); first by ring.
-  by rewrite nv tn !mul0r !mulr0 !subr0 !mulr0 addr0.
-rewrite -tt; split.
-  transitivity ((t1 ^+ 2 + t2 ^+ 2) * v1 - t2 * (v1 * t2 - v2 * t1)); first by ring.
-  by rewrite cross mulr0 subr0.
-transitivity ((t1 ^+ 2 + t2 ^+ 2) * v2 + t1 * (v1 * t2 - v2 * t1)); first by ring.
-by rewrite cross mulr0 addr0.
+move=> l0 tt nn tn nv; have [k k0 [e1 e2]] := orthogonal l0 tt nn tn.
+have cross : t1 * v2 - t2 * v1 = 0 by apply: (mulfI k0); rewrite mulr0 -nv e1 e2; ring.
+split.
+  transitivity ((t1 ^+ 2 + t2 ^+ 2) * v1 + t2 * (t1 * v2 - t2 * v1)); first by ring.
+  by rewrite cross mulr0 addr0 tt.
+transitivity ((t1 ^+ 2 + t2 ^+ 2) * v2 - t1 * (t1 * v2 - t2 * v1)); first by ring.
+by rewrite cross mulr0 subr0 tt.
 Qed.
 
 (* A motion along the tangents, and of free degrees of freedom. *)
@@ -645,7 +659,7 @@ have at_particle j : (j < ns)%N -> let p := particle s j in
     motion (variables_of v) (first_dof p) = v (first_dof p) /\
     motion (variables_of v) (second_dof p) = v (second_dof p).
   move=> lt_j p; have nv := tangents _ lt_j; have [sq tt nn tn] := particle_parts lt_j.
-  have [v1 v2] := along_tangent tt nn tn nv.
+  have [v1 v2] := along_tangent (exprn_gt0 2 unit_length_gt0) tt nn tn nv.
   rewrite /motion column_first // column_second // /variables_of ltnNge leq_addr /= addKn -/p.
   have back c w : toR c * along (tangent p) p v = toR (unit_length s) ^+ 2 * w ->
       toR (- (sign_of p * c)) * - (slip_rate v p / toR (unit_length s) ^+ 2) = w.

@@ -387,26 +387,14 @@ have side_ge : 0 <= side * (toR (normal p).2 * toR (tangent p).1 -
   by rewrite mulN1r oppr_ge0 leNgt toR_gt0 sign.
 move: ttR nnR tnR n1 n2 side_ge; move: (toR (tangent p).1) (toR (tangent p).2) => t1 t2.
 move: (toR (normal p).1) (toR (normal p).2) (toR n.1) (toR n.2) => N1 N2 m1 m2.
-move=> ttR nnR tnR -> -> side_ge; split=> //.
+move=> ttR nnR tnR -> -> side_ge; have [k k0 [e1 e2]] := orthogonal l2 ttR nnR tnR; split=> //.
 - transitivity (side ^+ 2 * (t1 ^+ 2 + t2 ^+ 2)); first by ring.
   by rewrite side2 mul1r.
 - by ring.
-have multiple1 : L ^+ 2 * N1 = side * (N2 * t1 - N1 * t2) * (- side * t2).
-  transitivity (side ^+ 2 * ((t1 ^+ 2 + t2 ^+ 2) * N1 - t1 * (t1 * N1 + t2 * N2))).
-    by rewrite side2 tnR mulr0 subr0 mul1r ttR.
-  by ring.
-have multiple2 : L ^+ 2 * N2 = side * (N2 * t1 - N1 * t2) * (side * t1).
-  transitivity (side ^+ 2 * ((t1 ^+ 2 + t2 ^+ 2) * N2 - t2 * (t1 * N1 + t2 * N2))).
-    by rewrite side2 tnR mulr0 subr0 mul1r ttR.
-  by ring.
-have l0 := lt0r_neq0 l2.
-exists (side * (N2 * t1 - N1 * t2) / L ^+ 2); last first.
-  by split; apply: (mulfI l0); rewrite ?multiple1 ?multiple2; field; apply: lt0r_neq0.
-rewrite divr_gt0 // lt_neqAle side_ge andbT eq_sym.
-apply: contraTneq nnR => zero; rewrite -leNgt.
-have -> : N1 = 0 by apply: (mulfI l0); rewrite multiple1 zero mul0r mulr0.
-have -> : N2 = 0 by apply: (mulfI l0); rewrite multiple2 zero mul0r mulr0.
-by rewrite expr0n addr0.
+exists (side * k); last by rewrite e1 e2; split; rewrite -[LHS]mul1r -side2; ring.
+move: side_ge; rewrite e1 e2 (_ : _ * _ = side * k * (t1 ^+ 2 + t2 ^+ 2)); last by ring.
+rewrite ttR pmulr_lge0 // => ge0; rewrite lt_neqAle ge0 andbT eq_sym mulf_neq0 //.
+by rewrite -sqrf_eq0 side2 oner_neq0.
 Qed.
 
 (* The values of v and of its forces at a particle. *)
@@ -635,33 +623,15 @@ Lemma plane (t1 t2 n1 n2 v1 v2 l : R) : 0 < l ->
   n1 * (n1 * v1 + n2 * v2) + t1 * (t1 * v1 + t2 * v2) = l * v1 /\
   n2 * (n1 * v1 + n2 * v2) + t2 * (t1 * v1 + t2 * v2) = l * v2.
 Proof.
-move=> l0 tt nn nt.
-(* n is t turned. *)
-have cross : (n1 * t2 - n2 * t1) ^+ 2 = l ^+ 2.
-  transitivity ((n1 ^+ 2 + n2 ^+ 2) * (t1 ^+ 2 + t2 ^+ 2) - (n1 * t1 + n2 * t2) ^+ 2).
-    by ring.
-  by rewrite tt nn nt expr0n subr0 expr2.
-have n1E : (n1 * t2 - n2 * t1) * t2 = l * n1.
-  transitivity (n1 * (t1 ^+ 2 + t2 ^+ 2) - t1 * (n1 * t1 + n2 * t2)); first by ring.
-  by rewrite tt nt mulr0 subr0 mulrC.
-have n2E : - ((n1 * t2 - n2 * t1) * t1) = l * n2.
-  transitivity (n2 * (t1 ^+ 2 + t2 ^+ 2) - t2 * (n1 * t1 + n2 * t2)); first by ring.
-  by rewrite tt nt mulr0 subr0 mulrC.
-have l_nz := lt0r_neq0 l0.
-have n11 : n1 ^+ 2 = t2 ^+ 2.
-  apply: (mulfI (expf_neq0 2 l_nz)); rewrite -exprMn -n1E exprMn cross.
-  by [].
-have n22 : n2 ^+ 2 = t1 ^+ 2.
-  by apply: (mulfI (expf_neq0 2 l_nz)); rewrite -exprMn -n2E sqrrN exprMn cross.
-have n12 : n1 * n2 = - (t1 * t2).
-  apply: (mulfI (expf_neq0 2 l_nz)).
-  transitivity ((l * n1) * (l * n2)); first by ring.
-  rewrite -n1E -n2E -cross; ring.
-split.
-  transitivity ((n1 ^+ 2 + t1 ^+ 2) * v1 + (n1 * n2 + t1 * t2) * v2); first by ring.
-  by rewrite n11 n12 addNr mul0r addr0 addrC tt.
-transitivity ((n1 * n2 + t1 * t2) * v1 + (n2 ^+ 2 + t2 ^+ 2) * v2); first by ring.
-by rewrite n22 n12 addNr mul0r add0r tt.
+move=> l0 tt nn nt; have [||k _ [e1 e2]] := orthogonal (n1 := n1) (n2 := n2) l0 tt; rewrite ?nn //.
+  by rewrite -nt; ring.
+have k2 : k ^+ 2 = 1.
+  by apply: (mulfI (lt0r_neq0 l0)); rewrite mulr1 -[RHS]nn e1 e2 -tt; ring.
+rewrite e1 e2 -tt; split.
+  transitivity (k ^+ 2 * (t2 * (t2 * v1 - t1 * v2)) + t1 * (t1 * v1 + t2 * v2)); first by ring.
+  by rewrite k2; ring.
+transitivity (k ^+ 2 * (t1 * (t1 * v2 - t2 * v1)) + t2 * (t1 * v1 + t2 * v2)); first by ring.
+by rewrite k2; ring.
 Qed.
 
 Lemma difference_of_parts (a : R) :

@@ -40,18 +40,7 @@ Lemma perpendicular (t1 t2 n1 n2 v1 v2 w1 w2 l : R) :
   (n1 * v1 + n2 * v2) * (n1 * w1 + n2 * w2) = 0 ->
   l * (v1 * w1 + v2 * w2) = (t1 * v1 + t2 * v2) * (t1 * w1 + t2 * w2).
 Proof.
-move=> tt l0 nn tn vw; pose k := (t1 * n2 - t2 * n1) / l.
-have nz := lt0r_neq0 l0.
-have lk : l * k = t1 * n2 - t2 * n1 by rewrite /k mulrC divfK.
-have e1 : n1 = - (k * t2).
-  apply: (mulfI nz); rewrite mulrN mulrA lk -tt; apply/eqP; rewrite -subr_eq0; apply/eqP.
-  by rewrite -[RHS](mulr0 t1) -tn; ring.
-have e2 : n2 = k * t1.
-  apply: (mulfI nz); rewrite mulrA lk -tt; apply/eqP; rewrite -subr_eq0; apply/eqP.
-  by rewrite -[RHS](mulr0 t2) -tn; ring.
-clearbody k; have k0 : k != 0.
-  by apply: contraTneq nn => k0; rewrite e1 e2 k0 !mul0r oppr0 expr0n addr0 ltxx.
-
+move=> tt l0 nn tn vw; have [k k0 [e1 e2]] := orthogonal l0 tt nn tn.
 have cross : (t1 * v2 - t2 * v1) * (t1 * w2 - t2 * w1) = 0.
   by apply: (mulfI (expf_neq0 2 k0)); rewrite mulr0 -vw e1 e2; ring.
 by rewrite -[RHS]addr0 -cross -tt; ring.
@@ -71,11 +60,8 @@ have in_all d : d \in moving_with_zero z -> d \in all_dofs.
     have /andP[] := in_range j lt_j; rewrite mem_iota.
 
 have -> : power lambda2 v = \sum_(d <- moving_with_zero z) f d.
-  rewrite /power (bigID (fun d => d \in moving_with_zero z)) /= [X in _ + X]big_seq_cond.
-  rewrite [X in _ + X]big1 ?addr0 => [|d /andP[Hd out]]; last by rewrite at_rest ?mul0r.
-  rewrite -big_filter; apply: perm_big.
-  apply: uniq_perm => [||d]; rewrite ?filter_uniq ?iota_uniq //.
-  by rewrite mem_filter; apply: andb_idr => /in_all.
+  apply: (sum_subset (iota_uniq _ _) um) => [d|d Hd out]; first exact: in_all.
+  by rewrite at_rest ?mul0r.
 
 rewrite /moving_with_zero /moving_dofs /first_dofs /second_dofs /zero_dofs !big_cat !big_map /=.
 rewrite (sum_zero (l := free_dofs s)) => [|d /free]; last by rewrite /f /w => ->; rewrite mulr0.
