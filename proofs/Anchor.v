@@ -235,6 +235,19 @@ End Region.
 
 End Checker.
 
+(* What is checked of a pencil, its anchor and an interval [lo, hi]. *)
+Definition prepared Q a fam low_a low_b lo hi :=
+  [/\ wellformed Q, expand Q a = Some fam,
+      bounded_rows (size (free Q)) (ff_block Q (row_a Q)) low_a,
+      bounded_rows (size (free Q)) (ff_block Q (row_b Q)) low_b &
+      proper_interval a low_a low_b lo hi].
+
+Lemma prepare Q a fam low_a low_b lo hi : expand Q a = Some fam -> wellformed Q ->
+  bounded_rows (size (free Q)) (ff_block Q (row_a Q)) low_a ->
+  bounded_rows (size (free Q)) (ff_block Q (row_b Q)) low_b ->
+  proper_interval a low_a low_b lo hi -> prepared Q a fam low_a low_b lo hi.
+Proof. by []. Qed.
+
 Section Expand.
 
 Variables (R : rcfType) (Q : pencil) (a : anchor).

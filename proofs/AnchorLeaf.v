@@ -96,14 +96,17 @@ Section Local.
 
 Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
 Variables (lo hi : point) (grain : Z).
-Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
+Hypotheses (ready : prepared Q a fam low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
 Notation ns := (size (slip Q)).
 Notation nf := (size (free Q)).
 Notation fi := (iota 0 nf).
 Notation si := (iota 0 ns).
-Hypothesis bounded_a : bounded_rows nf (ff_block Q (row_a Q)) low_a.
-Hypothesis bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b.
-Hypotheses (proper : proper_interval a low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
+
+Let wf : wellformed Q := let: And5 w _ _ _ _ := ready in w.
+Let expanded : expand Q a = Some fam := let: And5 _ e _ _ _ := ready in e.
+Let bounded_a : bounded_rows nf (ff_block Q (row_a Q)) low_a := let: And5 _ _ b _ _ := ready in b.
+Let bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b := let: And5 _ _ _ b _ := ready in b.
+Let proper : proper_interval a low_a low_b lo hi := let: And5 _ _ _ _ p := ready in p.
 
 Notation p := (anchor_center a).1.
 Notation q := (anchor_center a).2.
@@ -896,9 +899,8 @@ have null : null_vector A B (moving P local_r) 0 (slip_of Q x).
     have -> : image P A B 0 (slip_of Q x) l = family_image P local_family 0 (slip_of Q x) l.
       by apply: sum_eq => i Hi; rewrite on.
     by rewrite (local_image true (lexx 0) lt_l part) t_of_0 row0 mulr0.
-  rewrite -[RHS]image0 /image [RHS](bigID (fun j => is_moving (state_of r j))) /=.
-  rewrite [X in _ = _ + X]big_seq_cond [X in _ = _ + X]big1 ?addr0 /moving ?big_filter //.
-  move=> j /andP[Hj /negbTE rest]; have := slip_rows (in_local Hj); rewrite rest => ->.
+  rewrite -[RHS]image0 /image [RHS](sum_support (p := fun j => is_moving (state_of r j))) //.
+  move=> j Hj /negbTE rest; have := slip_rows (in_local Hj); rewrite rest => ->.
   by rewrite mulr0.
 
 have sol_v : solves P A B (u_of t') (slip_of Q x').

@@ -116,10 +116,7 @@ Section Part.
 
 Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
 Variables (lo hi : point) (grain : Z) (t : R) (x : nat -> R).
-Hypotheses (wf : wellformed Q) (expanded : expand Q a = Some fam).
-Hypothesis bounded_a : bounded_rows (size (free Q)) (ff_block Q (row_a Q)) low_a.
-Hypothesis bounded_b : bounded_rows (size (free Q)) (ff_block Q (row_b Q)) low_b.
-Hypotheses (proper : proper_interval a low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
+Hypotheses (ready : prepared Q a fam low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
 Hypothesis bt : between t lo hi.
 Hypothesis rows_f : forall i, i \in free Q -> reaction Q t x i = 0.
 
@@ -129,21 +126,17 @@ Notation P := (local_pencil (size (slip Q)) a low_a low_b fam lo hi false grain)
 Lemma free_at_u k : k \in iota 0 (size (free Q)) ->
   free_of Q x k = free_values Q a lo hi u (slip_of Q x) k.
 Proof.
-have [u0 _] := u_of_between proper bt.
-move: k; apply/(free_values_rows wf expanded bounded_a bounded_b proper x u0).
-by rewrite (t_of_u proper).
+have [u0 _] := u_of_between ready bt.
+by move: k; apply/(free_values_rows ready x u0); rewrite (t_of_u ready).
 Qed.
 
 Lemma part_line : exists A B, encloses P A B /\
   forall i, (i < size (slip Q))%N -> image P A B u (slip_of Q x) i =
     row_factor_at R a fam lo hi grain i * reaction Q t x (nth 0%N (slip Q) i).
 Proof.
-have [u0 u1] := u_of_between proper bt.
-have [A [B [E on]]] :=
-  local_line wf expanded bounded_a bounded_b proper grain0 false u0 u1.
-exists A, B; split=> // i lt_i.
-rewrite -[X in reaction Q X _ _](t_of_u proper t).
-rewrite -(local_image grain wf expanded proper false u0 lt_i free_at_u).
+have [u0 u1] := u_of_between ready bt.
+have [A [B [E on]]] := local_line ready grain0 false u0 u1; exists A, B; split=> // i lt_i.
+rewrite -[X in reaction Q X _ _](t_of_u ready t) -(local_image grain ready false u0 lt_i free_at_u).
 by apply: sum_eq => j Hj; rewrite on // mem_iota.
 Qed.
 
@@ -158,13 +151,8 @@ Notation Q' := (Pencil n ra' rb' fr).
 Variables (a : anchor) (other : seq matrix) (fam fam' : anchor_family) (low_a low_b : form_bound).
 Notation a' := (friction_anchor a other).
 Variables (grain : Z) (r : region) (low high : point) (t mu : R) (x : nat -> R).
-Hypotheses (wf : wellformed Q).
-Hypotheses (expanded : expand Q a = Some fam) (expanded' : expand Q' a' = Some fam').
-Hypothesis bounded_a : bounded_rows (size fr) (ff_block Q (row_a Q)) low_a.
-Hypothesis bounded_b : bounded_rows (size fr) (ff_block Q (row_b Q)) low_b.
-Hypothesis bounded_a' : bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a.
-Hypothesis bounded_b' : bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b.
-Hypothesis proper : proper_interval a low_a low_b (lower r) (upper r).
+Hypothesis ready : prepared Q a fam low_a low_b (lower r) (upper r).
+Hypothesis ready' : prepared Q' a' fam' low_a low_b (lower r) (upper r).
 Hypotheses (grain0 : (0 <? grain)%Z) (same_size : size (series_z fam) = size (series_z fam')).
 Hypothesis bm : between mu low high.
 Hypothesis bt : between t (lower r) (upper r).
@@ -193,7 +181,7 @@ Qed.
 Theorem about_absent tr :
   check_boxes (size (slip Q)) (check_local_leaf halves P P') tr (local_region r) low high -> False.
 Proof.
-have [u0 u1] := u_of_between proper bt.
+have [u0 u1] := u_of_between ready bt.
 have lt_ns i : i \in indices P -> (i < size (slip Q))%N by rewrite mem_iota.
 have x0 i : (i < size (slip Q))%N -> 0 <= slip_of Q x i.
   by move=> lt_i; have [] := signs (mem_nth 0%N lt_i).
@@ -202,18 +190,16 @@ have start : in_region (size (slip Q)) (u_of lo hi t) (slip_of Q x) (local_regio
 move=> /box_reaches_a_leaf/(_ x0 start bm)[r1 [low1 [high1 [l [_ [[bu ag1] bm1 O1 Om1 leaf_ok]]]]]].
 have {leaf_ok} ok : check_parts P P' r1 low1 high1 l.
   by case: l leaf_ok => //= both; have := halves_absent both ag1.
-have [A [B [E imageE]]] :=
-  part_line wf expanded bounded_a bounded_b proper grain0 bt rows_f.
-have [A' [B' [E' imageE']]] :=
-  part_line (Q := Q') (a := a') wf expanded' bounded_a' bounded_b' proper grain0 bt rows_f'.
+have [A [B [E imageE]]] := part_line ready grain0 bt rows_f.
+have [A' [B' [E' imageE']]] := part_line ready' grain0 bt rows_f'.
 apply: (parts_absent (r := r1) (t := u_of lo hi t) E E' (erefl _) O1 Om1 bu bm1
   (xs := slip_of Q x) (factor := row_factor_at R a fam lo hi grain)
   (row := fun i => reaction Q t x (nth 0%N (slip Q) i))
   (row' := fun i => reaction Q' t x (nth 0%N (slip Q) i)) _ _ _ _ _ _ ok) => //.
-- by move=> i /lt_ns lt_i; apply: (row_factor_gt0_ R expanded proper grain0).
+- by move=> i /lt_ns lt_i; apply: (row_factor_gt0_ R ready grain0).
 - by move=> i /lt_ns; apply: imageE.
 - by move=> i /lt_ns lt_i; rewrite -same_factor; apply: imageE'.
-- have part := free_at_u wf expanded bounded_a bounded_b proper bt rows_f.
+- have part := free_at_u ready bt rows_f.
   by case: (slip_part_nonzero part nonzero) => j Hj xj; exists j.
 by move=> i /lt_ns lt_i; apply: signs; apply: mem_nth.
 Qed.
@@ -224,13 +210,9 @@ End About.
 Theorem about_reversed_absent (R : rcfType) n fr ra rb ra' rb' a other fam fam' low_a low_b grain
     r low high (t mu : R) x (halves : region -> bool) tr
     (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr) :
-  wellformed Q -> expand (swap_pencil Q) a = Some fam ->
-  expand (swap_pencil Q') (friction_anchor a other) = Some fam' ->
-  bounded_rows (size fr) (ff_block Q (row_a Q)) low_a ->
-  bounded_rows (size fr) (ff_block Q (row_b Q)) low_b ->
-  bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a ->
-  bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b ->
-  proper_interval a low_b low_a (swap (upper r)) (swap (lower r)) -> (0 <? grain)%Z ->
+  prepared (swap_pencil Q) a fam low_a low_b (swap (upper r)) (swap (lower r)) ->
+  prepared (swap_pencil Q') (friction_anchor a other) fam' low_a low_b (swap (upper r))
+    (swap (lower r)) -> (0 <? grain)%Z ->
   size (series_z fam) = size (series_z fam') -> between mu low high ->
   0 < t -> between t (lower r) (upper r) -> agrees (size (slip Q)) r (slip_of Q x) ->
   (exists2 i, i \in iota 0 n & x i != 0) ->
@@ -240,16 +222,15 @@ Theorem about_reversed_absent (R : rcfType) n fr ra rb ra' rb' a other fam fam' 
      [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
   (forall r', halves r' -> agrees (size (slip Q)) r' (slip_of Q x) -> False) ->
   check_boxes (size (slip Q)) (check_local_leaf halves
-      (local_pencil (size (slip Q)) a low_b low_a fam (swap (upper r)) (swap (lower r)) false grain)
-      (local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' (swap (upper r))
+      (local_pencil (size (slip Q)) a low_a low_b fam (swap (upper r)) (swap (lower r)) false grain)
+      (local_pencil (size (slip Q)) (friction_anchor a other) low_a low_b fam' (swap (upper r))
          (swap (lower r)) false grain)) tr (local_region r) low high -> False.
 Proof.
-move=> wf ex0 ex1 ba bb ba' bb' proper grain0 same_size bm t_gt0 bt ag nonzero rows rows' signs.
-move=> apart.
+move=> ready ready' grain0 same_size bm t_gt0 bt ag nonzero rows rows' signs apart.
 have tn0 := lt0r_neq0 t_gt0; have ti : 0 < t^-1 by rewrite invr_gt0.
-apply: (@about_absent R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r)
-  low high t^-1 mu x wf ex0 ex1 bb ba bb' ba' proper grain0 same_size bm (swap_between t_gt0 bt)
-  ag nonzero _ _ _ halves apart).
+apply: (@about_absent R n fr rb ra rb' ra' a other fam fam' low_a low_b grain (swap_region r)
+  low high t^-1 mu x ready ready' grain0 same_size bm (swap_between t_gt0 bt) ag nonzero _ _ _
+  halves apart).
 - by move=> i Hi; rewrite (swap_reaction Q) // rows // mulr0.
 - by move=> i Hi; rewrite (swap_reaction Q') // rows' // mulr0.
 move=> i Hi y; have [x0 y0 xy] := signs i Hi.
@@ -300,12 +281,12 @@ have ag' : agrees (size (slip Q0)) r (slip_of Q0 x) by rewrite size_slips.
 case: reverse ex0 ex1 => ex0 ex1; last first.
   rewrite /check_about /local_part -(size_slips z (Lambda2 0 1)).
   case/and4P=> /= proper grain0 /eqP same_size ok.
-  exact: (about_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm bt ag' nonzero
-    rows0 rows1 signs both_absent ok).
+  exact: (about_absent (prepare ex0 wfQ ba0 bb0 proper) (prepare ex1 wfQ ba1 bb1 proper) grain0
+    same_size bm bt ag' nonzero rows0 rows1 signs both_absent ok).
 rewrite /check_about /local_part -(size_slips z (Lambda2 0 1)) => /andP[lo0].
 case/and4P=> /= proper grain0 /eqP same_size ok.
-exact: (about_reversed_absent wfQ ex0 ex1 ba0 bb0 ba1 bb1 proper grain0 same_size bm
-  (value_gt0 O lo0 bt) bt ag' nonzero rows0 rows1 signs both_absent ok).
+exact: (about_reversed_absent (prepare ex0 wfQ bb0 ba0 proper) (prepare ex1 wfQ bb1 ba1 proper)
+  grain0 same_size bm (value_gt0 O lo0 bt) bt ag' nonzero rows0 rows1 signs both_absent ok).
 Qed.
 
 End Sound.

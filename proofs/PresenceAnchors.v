@@ -86,24 +86,23 @@ Section Intervals.
 
 Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
 Variables (lo hi lo' hi' : point) (grain : Z) (u u' : R).
-Hypotheses (expanded : expand Q a = Some fam).
-Hypothesis proper : proper_interval a low_a low_b lo hi.
-Hypothesis proper' : proper_interval a low_a low_b lo' hi'.
+Hypotheses (ready : prepared Q a fam low_a low_b lo hi).
+Hypotheses (ready' : prepared Q a fam low_a low_b lo' hi').
 Hypothesis same_value : t_of lo hi u = t_of lo' hi' u'.
 
 Definition power_ratio : R :=
   toR (power_z a fam lo' hi') / toR (power_z a fam lo hi).
 
 Lemma power_ratio_gt0 : 0 < power_ratio.
-Proof. by rewrite divr_gt0 ?(power_gt0 R expanded proper) ?(power_gt0 R expanded proper'). Qed.
+Proof. by rewrite divr_gt0 ?(power_gt0 R ready) ?(power_gt0 R ready'). Qed.
 
 Lemma family_of_interval i j : local_family Q a fam lo' hi' grain u' i j =
   power_ratio * local_family Q a fam lo hi grain u i j.
 Proof.
-have q0 := q_gt0 R expanded; have p0 := power_gt0 R expanded proper.
+have q0 := q_gt0 R ready; have p0 := power_gt0 R ready.
 have same_d : d_of a lo' hi' u' = d_of a lo hi u.
   apply: (mulfI (lt0r_neq0 q0)); apply: (addrI (toR (anchor_center a).1)).
-  by rewrite -(t_ofE expanded proper) -(t_ofE expanded proper') same_value.
+  by rewrite -(t_ofE ready) -(t_ofE ready') same_value.
 rewrite /local_family /raw same_d /power_ratio.
 move: (scale_at _ _ _ _) (condensed_family _ _ _ _ _) (toR (power_z a fam lo' hi')) => s c p.
 move: (toR (power_z a fam lo hi)) p0 (toR (anchor_unit a)) => p1 p1_gt0 v.
@@ -112,10 +111,10 @@ Qed.
 
 End Intervals.
 
-Lemma t_of_ends (R : rcfType) a low_a low_b p q : proper_interval a low_a low_b p q ->
+Lemma t_of_ends (R : rcfType) Q a fam low_a low_b p q : prepared Q a fam low_a low_b p q ->
   t_of p q 0 = toR p.1 / toR p.2 :> R /\ t_of p q 1 = toR q.1 / toR q.2 :> R.
 Proof.
-move=> proper; have [_ p2 q2 _ _] := proper_parts R proper.
+move=> ready; have [_ p2 q2 _ _] := proper_parts R ready.
 have [p0 q0] := (lt0r_neq0 p2, lt0r_neq0 q2).
 rewrite /t_of /interval_width mul0r mul1r addr0 toRB !toRM.
 by split; last rewrite addrCA subrr addr0; field; rewrite ?p0 ?q0.
@@ -129,13 +128,8 @@ Notation Q' := (Pencil n ra' rb' fr).
 Variables (a : anchor) (other : seq matrix) (fam fam' : anchor_family) (low_a low_b : form_bound).
 Notation a' := (friction_anchor a other).
 Variables (grain : Z) (r : region) (low high : point) (mu : R).
-Hypotheses (wf : wellformed Q).
-Hypotheses (expanded : expand Q a = Some fam) (expanded' : expand Q' a' = Some fam').
-Hypothesis bounded_a : bounded_rows (size fr) (ff_block Q (row_a Q)) low_a.
-Hypothesis bounded_b : bounded_rows (size fr) (ff_block Q (row_b Q)) low_b.
-Hypothesis bounded_a' : bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a.
-Hypothesis bounded_b' : bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b.
-Hypothesis proper : proper_interval a low_a low_b (lower r) (upper r).
+Hypothesis ready : prepared Q a fam low_a low_b (lower r) (upper r).
+Hypothesis ready' : prepared Q' a' fam' low_a low_b (lower r) (upper r).
 Variables after before : point.
 Hypothesis proper_s : proper_interval a low_a low_b (lower r) after.
 Hypothesis proper_f : proper_interval a low_a low_b before (upper r).
@@ -165,16 +159,20 @@ Notation N1 := (family_poly R Q' a' fam' lo hi grain).
 Definition family_over p q (u : R) i j :=
   local_family Q a fam p q grain u i j + mu * local_family Q' a' fam' p q grain u i j.
 
+(* Ready over another interval. *)
+Let over_pq p q : proper_interval a low_a low_b p q ->
+  prepared Q a fam low_a low_b p q /\ prepared Q' a' fam' low_a low_b p q.
+Proof. by case: ready ready' => w e b c _ [_ e' b' c' _]. Qed.
+
 Lemma over_lines p q (u f g : R) : proper_interval a low_a low_b p q -> 0 <= u -> u <= 1 ->
   f * toR low.2 + g * toR high.2 = 1 -> f * toR low.1 + g * toR high.1 = mu ->
   exists A B A' B', [/\ encloses (over p q).1 A B, encloses (over p q).2 A' B' &
     forall i j, i \in iota 0 ns -> j \in iota 0 ns ->
       family_over p q u i j = mixed_at A B A' B' u f g i j].
 Proof.
-move=> proper_pq u0 u1 one val; have [l1 l2 h1 h2] := ordered_ge0 R Om.
-have [A [B [E on]]] := local_line wf expanded bounded_a bounded_b proper_pq grain0 false u0 u1.
-have [A' [B' [E' on']]] :=
-  local_line (Q := Q') (a := a') wf expanded' bounded_a' bounded_b' proper_pq grain0 false u0 u1.
+move=> /over_pq[pq pq'] u0 u1 one val; have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have [A [B [E on]]] := local_line pq grain0 false u0 u1.
+have [A' [B' [E' on']]] := local_line pq' grain0 false u0 u1.
 exists (fun i j => toR low.2 * A i j + toR low.1 * A' i j),
   (fun i j => toR low.2 * B i j + toR low.1 * B' i j),
   (fun i j => toR high.2 * A i j + toR high.1 * A' i j),
@@ -190,13 +188,10 @@ Lemma over_rows p q (u u' : R) : proper_interval a low_a low_b p q ->
     forall i j, i \in iota 0 ns -> j \in iota 0 ns ->
       family_over p q u' i j = rho i * family_over lo hi u i j.
 Proof.
-move=> proper_pq same_value; exists (fun=> power_ratio R a fam lo hi p q).
-  by move=> i _; apply: (power_ratio_gt0 R expanded proper proper_pq).
-move=> i j _ _.
-rewrite /family_over (family_of_interval grain expanded proper proper_pq same_value).
-have proper_a' : proper_interval a' low_a low_b lo hi by [].
-have proper_b' : proper_interval a' low_a low_b p q by [].
-rewrite (family_of_interval (Q := Q') grain expanded' proper_a' proper_b' same_value).
+move=> /over_pq[pq pq'] same_value; exists (fun=> power_ratio R a fam lo hi p q).
+  by move=> i _; apply: (power_ratio_gt0 R ready pq).
+move=> i j _ _; rewrite /family_over (family_of_interval grain ready pq same_value).
+rewrite (family_of_interval grain ready' pq' same_value).
 have -> : power_ratio R a' fam' lo hi p q = power_ratio R a fam lo hi p q.
   by rewrite /power_ratio /power_z; congr (toR _ / toR _); apply: substituted_power_size;
      rewrite !size_map same_size.
@@ -211,7 +206,7 @@ Theorem piece_present v :
       let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
 move=> ok; have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
-have proper' : proper_interval a' low_a low_b lo hi by [].
+have [_ _ _ _ proper] := ready.
 have unit_u (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
     0 <= u /\ u <= 1 by rewrite /between /= toR0 toR1 !mulr1.
 have Or : ordered (lower (local_region r)) (upper (local_region r)) by [].
@@ -222,15 +217,14 @@ have finish1 : toR (upper (local_region r)).1 / toR (upper (local_region r)).2 =
 have regular_d (u : R) : between u (lower (local_region r)) (upper (local_region r)) ->
     (d0 * d1).[u] != 0.
   move=> /unit_u[u0 u1]; rewrite hornerM mulf_neq0 //.
-    exact: (free_det_neq0 wf expanded bounded_a bounded_b proper).
-  exact: (free_det_neq0 (Q := Q') wf expanded' bounded_a' bounded_b' proper').
+    exact: (free_det_neq0 ready).
+  exact: (free_det_neq0 ready').
 have family_d (u : R) i j : between u (lower (local_region r)) (upper (local_region r)) ->
     i \in indices (over lo hi).1 -> j \in indices (over lo hi).1 ->
     (N0 i j * d1 + mu *: (N1 i j * d0)).[u] = (d0 * d1).[u] * F u i j.
   move=> /unit_u[u0 u1] _ _; rewrite hornerD hornerZ.
   rewrite [(N0 i j * d1).[u]]hornerM [(N1 i j * d0).[u]]hornerM [(d0 * d1).[u]]hornerM.
-  rewrite (family_polyE grain wf expanded bounded_a bounded_b proper) //.
-  rewrite (family_polyE (Q := Q') grain wf expanded' bounded_a' bounded_b' proper') //.
+  rewrite (family_polyE grain ready) // (family_polyE grain ready') //.
   by move: (d0.[u]) (d1.[u]) (T0 u i j) (T1 u i j) => *; ring.
 have lines p q (u : R) : proper_interval a low_a low_b p q -> 0 <= u -> u <= 1 ->
     on_lines (over lo hi).1 f g (over p q).1 (over p q).2 u (family_over p q u).
@@ -246,10 +240,12 @@ have near_f : on_lines (over lo hi).1 f g (over before hi).1 (over before hi).2
   by rewrite finish1; apply: lines; rewrite ?ler01 ?lexx.
 have rows_s : multiple_rows (over lo hi).1 (family_over lo hi)
     (toR (lower (local_region r)).1 / toR (lower (local_region r)).2) (family_over lo after 0).
-  by rewrite start0; apply: over_rows; rewrite ?(t_of_ends R proper).1 ?(t_of_ends R proper_s).1.
+  by rewrite start0; apply: over_rows;
+    rewrite ?(t_of_ends R ready).1 ?(t_of_ends R (over_pq proper_s).1).1.
 have rows_f : multiple_rows (over lo hi).1 (family_over lo hi)
     (toR (upper (local_region r)).1 / toR (upper (local_region r)).2) (family_over before hi 1).
-  by rewrite finish1; apply: over_rows; rewrite ?(t_of_ends R proper).2 ?(t_of_ends R proper_f).2.
+  by rewrite finish1; apply: over_rows;
+    rewrite ?(t_of_ends R ready).2 ?(t_of_ends R (over_pq proper_f).1).2.
 have [u [xs [bu [i0 Hi0 xi0] ag signs]]] :=
   piece_exists (P := (over lo hi).1) (P' := (over lo hi).2) (Ps := (over lo after).1)
     (Ps' := (over lo after).2) (Pf := (over before hi).1) (Pf' := (over before hi).2)
@@ -259,23 +255,23 @@ have [u0 u1] := unit_u u bu.
 
 pose t := t_of lo hi u; pose x := joined Q a lo hi u xs.
 have slipE j : (j < ns)%N -> slip_of Q x j = xs j by apply: slip_of_joined.
-have part := joined_values a lo hi wf u xs.
+have part := joined_values ready u xs.
 have rows : forall i, i \in free Q -> reaction Q t x i = 0.
-  exact/(free_values_rows wf expanded bounded_a bounded_b proper x u0).
+  exact/(free_values_rows ready x u0).
 have rows' : forall i, i \in free Q' -> reaction Q' t x i = 0.
   by move=> i Hi; rewrite same_rows // rows.
-have part' := (free_values_rows (Q := Q') wf expanded' bounded_a' bounded_b' proper' x u0).1 rows'.
+have part' := (free_values_rows ready' x u0).1 rows'.
 exists t, x; split=> //.
-- split; first exact: (between_t proper).
+- split; first exact: (between_t ready).
   by move=> j lt_j; rewrite slipE //; apply: ag.
 - have lt0 : (i0 < ns)%N by rewrite mem_iota in Hi0.
   exists (nth 0%N (slip Q) i0); first exact/(slip_indices (Q := Q))/mem_nth.
   by rewrite -[x _]/(slip_of Q x i0) slipE.
 move=> i /(nthP 0%N)[k lt_k <-] y.
 have Hk : k \in indices (over lo hi).1 by rewrite mem_iota.
-have [x0 y0 xy] := signs k Hk; have c0 := row_factor_gt0_ R expanded proper grain0 lt_k.
-have image0 := local_image grain wf expanded proper false u0 lt_k part.
-have image1 := local_image (Q := Q') grain wf expanded' proper' false u0 lt_k part'.
+have [x0 y0 xy] := signs k Hk; have c0 := row_factor_gt0_ R ready grain0 lt_k.
+have image0 := local_image grain ready false u0 lt_k part.
+have image1 := local_image grain ready' false u0 lt_k part'.
 have yE : \sum_(j <- indices (over lo hi).1) F u k j * xs j =
     row_factor_at R a fam lo hi grain k * y.
   rewrite /y mulrDr mulrCA -{2}(same_factor R a other grain r same_size) -image0 -image1.
@@ -292,20 +288,16 @@ End Present.
 (* The same in 1/t. *)
 Theorem piece_present_reversed (R : rcfType) n fr ra rb ra' rb' a other fam fam' low_a low_b grain
     r low high after before (mu : R) v (Q := Pencil n ra rb fr) (Q' := Pencil n ra' rb' fr)
-    (part := fun lo hi => local_pencil (size (slip Q)) a low_b low_a fam lo hi false grain)
+    (part := fun lo hi => local_pencil (size (slip Q)) a low_a low_b fam lo hi false grain)
     (part' := fun lo hi =>
-       local_pencil (size (slip Q)) (friction_anchor a other) low_b low_a fam' lo hi false grain)
+       local_pencil (size (slip Q)) (friction_anchor a other) low_a low_b fam' lo hi false grain)
     (over := fun lo hi =>
        (mixed low (part lo hi) (part' lo hi), mixed high (part lo hi) (part' lo hi))) :
-  wellformed Q -> expand (swap_pencil Q) a = Some fam ->
-  expand (swap_pencil Q') (friction_anchor a other) = Some fam' ->
-  bounded_rows (size fr) (ff_block Q (row_a Q)) low_a ->
-  bounded_rows (size fr) (ff_block Q (row_b Q)) low_b ->
-  bounded_rows (size fr) (ff_block Q' (row_a Q')) low_a ->
-  bounded_rows (size fr) (ff_block Q' (row_b Q')) low_b ->
-  proper_interval a low_b low_a (swap (upper r)) (swap (lower r)) ->
-  proper_interval a low_b low_a (swap (upper r)) after ->
-  proper_interval a low_b low_a before (swap (lower r)) -> (0 <? grain)%Z ->
+  prepared (swap_pencil Q) a fam low_a low_b (swap (upper r)) (swap (lower r)) ->
+  prepared (swap_pencil Q') (friction_anchor a other) fam' low_a low_b (swap (upper r))
+    (swap (lower r)) ->
+  proper_interval a low_a low_b (swap (upper r)) after ->
+  proper_interval a low_a low_b before (swap (lower r)) -> (0 <? grain)%Z ->
   size (series_z fam) = size (series_z fam') -> ordered low high -> between mu low high ->
   (forall t (x : nat -> R) i, i \in fr ->
      reaction (swap_pencil Q') t x i = reaction (swap_pencil Q) t x i) ->
@@ -318,13 +310,11 @@ Theorem piece_present_reversed (R : rcfType) n fr ra rb ra' rb' a other fam fam'
     forall i, i \in slip Q ->
       let y := reaction Q t x i + mu * reaction Q' t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]].
 Proof.
-move=> wf ex0 ex1 ba bb ba' bb' proper proper_s proper_f grain0 same_size Om bm same_swapped hi2.
-move=> ok.
+move=> ready ready' proper_s proper_f grain0 same_size Om bm same_swapped hi2 ok.
 have [t [x [[[lo_t _] ag] nonzero rows signs]]] :=
-  @piece_present R n fr rb ra rb' ra' a other fam fam' low_b low_a grain (swap_region r) low high
-    mu wf ex0 ex1 bb ba bb' ba' proper after before proper_s proper_f grain0 same_size Om bm
-    same_swapped v ok.
-have [_ l2 _ _ _] := proper_parts R proper.
+  @piece_present R n fr rb ra rb' ra' a other fam fam' low_a low_b grain (swap_region r) low high
+    mu ready ready' after before proper_s proper_f grain0 same_size Om bm same_swapped v ok.
+have [_ l2 _ _ _] := proper_parts R ready.
 have t_gt0 : 0 < t.
   have h2 : 0 < toR (upper r).2 :> R by rewrite toR_gt0.
   by rewrite -(pmulr_lgt0 _ l2); apply: lt_le_trans h2 _.
@@ -402,15 +392,18 @@ case ex1: (expand_part Q1 reverse (friction_anchor a other)) => [fam'|//] [<-].
 case: reverse ex0 ex1 => ex0 ex1; last first.
   rewrite /check_present /ends_over /local_part -(size_slips z (Lambda2 0 1)).
   case/and5P=> /= proper /andP[proper_s proper_f] grain0 /eqP same_size ok.
-  have [t [x [[[lo_t _] ag] nonzero rows signs]]] := piece_present wfQ ex0 ex1 ba0 bb0 ba1 bb1
-    proper proper_s proper_f grain0 same_size Om bm same_free_reactions ok.
+  have ready := prepare ex0 wfQ ba0 bb0 proper.
+  have [t [x [[[lo_t _] ag] nonzero rows signs]]] := piece_present ready
+    (prepare ex1 wfQ ba1 bb1 proper) proper_s proper_f grain0 same_size Om bm
+    same_free_reactions ok.
   exists t, (zero_motion z x); split; last exact: motion_of_pencil apart ag nonzero rows signs.
-  have [l1 l2 _ _ _] := proper_parts R proper.
+  have [l1 l2 _ _ _] := proper_parts R ready.
   by rewrite -(pmulr_lge0 _ l2); apply: le_trans lo_t.
 rewrite /check_present /ends_over /local_part -(size_slips z (Lambda2 0 1)) => /andP[hi2].
 case/and5P=> /= proper /andP[proper_s proper_f] grain0 /eqP same_size ok.
-have [t [x [[t_gt0 ag] nonzero rows signs]]] := piece_present_reversed wfQ ex0 ex1 ba0 bb0 ba1 bb1
-  proper proper_s proper_f grain0 same_size Om bm same_swapped_reactions hi2 ok.
+have [t [x [[t_gt0 ag] nonzero rows signs]]] := piece_present_reversed
+  (prepare ex0 wfQ bb0 ba0 proper) (prepare ex1 wfQ bb1 ba1 proper) proper_s proper_f grain0
+  same_size Om bm same_swapped_reactions hi2 ok.
 exists t, (zero_motion z x); split; first exact: ltW.
 exact: motion_of_pencil apart ag nonzero rows signs.
 Qed.

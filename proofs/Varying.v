@@ -252,14 +252,14 @@ move=> O tight /at_anchorP[/andP[ba bb] [reverse [a [fam [expanded lo0 ok]]]]] t
 have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
 case: reverse expanded lo0 ok => expanded lo0 /andP[_ ok].
   have t0 := value_gt0 O (lo0 isT) bt; case/and3P: (ok) => proper grain0 _.
-  apply: (anchored_excludes (Q := swap_pencil Q) wf expanded bb ba proper grain0 ok
+  apply: (anchored_excludes (Q := swap_pencil Q) (And5 wf expanded bb ba proper) grain0 ok
             (t := t^-1) (x := x)) => //.
   - by case: (e) tight => //= c [].
   - exact: (swap_solution Q x t0).1.
   exact: swap_between.
 case/and3P: (ok) => proper grain0 _.
 case: r O ok bt ag proper {lo0} => lo' hi' st O ok bt ag proper.
-exact: (anchored_excludes wf expanded ba bb proper grain0 ok tight sol bt ag).
+exact: (anchored_excludes (And5 wf expanded ba bb proper) grain0 ok tight sol bt ag).
 Qed.
 
 Lemma root_yields grain c n r : ordered (lower r) (upper r) ->
@@ -272,7 +272,7 @@ case: r O ok lo0 => lo' hi' st /= O ok lo0; case: reverse expanded lo0 ok => exp
   move=> /= to0 ok; case/and3P: (ok) => proper grain0 _.
   have {}lo0 := lo0 isT; have t2 : 0 < toR (to_point c).2 :> R by rewrite toR_gt0.
   have [s [x [bt sol [reg ag] uniq]]] :=
-    anchored_yields (Q := swap_pencil Q) R wf expanded bb ba proper grain0 ok.
+    anchored_yields (Q := swap_pencil Q) R (And5 wf expanded bb ba proper) grain0 ok.
   have s0 : 0 < s.
     have s_ge0 : 0 <= s by case: sol.
     rewrite lt_neqAle s_ge0 andbT eq_sym; apply: contraTneq t2 => s_zero.
@@ -288,7 +288,8 @@ case: r O ok lo0 => lo' hi' st /= O ok lo0; case: reverse expanded lo0 ok => exp
   have [ts prop] := uniq _ x' ((swap_solution Q x' t0).1 sol') (swap_between t0 bt') ag'.
   by split=> //; rewrite -ts invrK.
 move=> _ ok; case/and3P: (ok) => proper grain0 _.
-have [t [x [bt sol [reg ag] uniq]]] := anchored_yields R wf expanded ba bb proper grain0 ok.
+have [t [x [bt sol [reg ag] uniq]]] :=
+  anchored_yields R (And5 wf expanded ba bb proper) grain0 ok.
 by exists t, x; split=> // t' x' sol' [bt' ag']; apply: uniq.
 Qed.
 
@@ -316,10 +317,10 @@ case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
   move=> from0 at_a; have t_gt0 : 0 < t := value_gt0 (r := Region lo' hi' st) O' (lo0 isT) bt.
   case/and3P: (at_a) => proper grain0 _.
   have known' := swap_known_solution (known_gt0 from0 known0) known0.
-  exact: (anchored_beside (Q := swap_pencil Q) wf expanded bb ba proper grain0 at_a known' beside
-    ((swap_solution Q x t_gt0).1 sol) (swap_between t_gt0 bt) ag).
+  exact: (anchored_beside (Q := swap_pencil Q) (And5 wf expanded bb ba proper) grain0 at_a
+    known' beside ((swap_solution Q x t_gt0).1 sol) (swap_between t_gt0 bt) ag).
 move=> _ at_a; case/and3P: (at_a) => proper grain0 _.
-exact: (anchored_beside wf expanded ba bb proper grain0 at_a known0 beside sol bt ag).
+exact: (anchored_beside (And5 wf expanded ba bb proper) grain0 at_a known0 beside sol bt ag).
 Qed.
 
 Lemma claim_yields : supports_region (enclosed_order ns) r q ->
@@ -332,8 +333,8 @@ case: r O at_a lo0 supports => lo' hi' st /= O' at_a lo0 supports.
 case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
   move=> from0 at_a; case/and3P: (at_a) => proper grain0 _.
   have t0 := known_gt0 from0 known0; have i0 : 0 < t^-1 by rewrite invr_gt0.
-  have [bt ag uniq] := anchored_claimed (Q := swap_pencil Q) wf expanded bb ba proper grain0 at_a
-    (swap_known_solution t0 known0) supports.
+  have [bt ag uniq] := anchored_claimed (Q := swap_pencil Q)
+    (And5 wf expanded bb ba proper) grain0 at_a (swap_known_solution t0 known0) supports.
   exists t, x; split=> //.
     split=> //; have := swap_between i0 bt.
     by rewrite invrK /swap /= -!surjective_pairing.
@@ -342,7 +343,7 @@ case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
   have [ts prop] := uniq _ x' ((swap_solution Q x' t0').1 sol') (swap_between t0' bt') ag'.
   by split=> //; rewrite -[t']invrK ts invrK.
 move=> _ at_a; case/and3P: (at_a) => proper grain0 _.
-have [bt ag uniq] := anchored_claimed wf expanded ba bb proper grain0 at_a known0 supports.
+have [bt ag uniq] := anchored_claimed (And5 wf expanded ba bb proper) grain0 at_a known0 supports.
 by exists t, x; split=> // t' x' sol' [bt' ag']; apply: uniq.
 Qed.
 
@@ -366,8 +367,8 @@ have rowE i : reaction (swap_pencil Q) (toR (upper r).2 / toR (upper r).1) X i =
   by rewrite mul0r addr0.
 have [] : t^-1 = 0 -> False by apply/eqP; rewrite invr_eq0 gt_eqF.
 have -> : t^-1 = toR (upper r).2 / toR (upper r).1.
-  apply: (anchored_limit (Q := swap_pencil Q) (x := X) wf expanded bb ba proper grain0 ok _ _ _
-    ((swap_solution Q y t0).1 sol) (swap_between t0 bt) ag).
+  apply: (anchored_limit (Q := swap_pencil Q) (x := X) (And5 wf expanded bb ba proper) grain0
+    ok _ _ _ ((swap_solution Q y t0).1 sol) (swap_between t0 bt) ag).
   - by move=> i /free0 /Z.eqb_spec zero; rewrite rowE zero toR0.
   - move=> j lt_j; have := slip0 j; rewrite mem_iota add0n => /(_ lt_j) /=.
     by case: ifP => _ /Z.eqb_spec zero; [rewrite rowE zero toR0 | rewrite /slip_of /X zero toR0].
