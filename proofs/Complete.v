@@ -158,15 +158,16 @@ Qed.
 Theorem solution_claim_sound k : check_solution_claim Q k -> exists (t : R) x,
   [/\ between t (claimed_from k) (claimed_to k), solution Q t x &
       forall i, i \in slip Q ->
-        [/\ i \in claimed_support k -> 0 < x i, i \notin claimed_support k -> x i = 0 &
-            i \notin claimed_support k -> i \in claimed_biactive k -> reaction Q t x i = 0]].
+        [/\ i \in claimed_support k -> 0 < x i, i \notin claimed_support k -> x i = 0,
+            i \notin claimed_support k -> i \in claimed_biactive k -> reaction Q t x i = 0 &
+            i \notin claimed_support k -> i \notin claimed_biactive k -> 0 < reaction Q t x i]].
 Proof.
 case: k => [e|b] /= ok.
   have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
-  exists t, x; split=> // [|i Hi]; first by rewrite /between /= ![t * _]mulrC.
-  by have [] := signs _ Hi.
+  by exists t, x; split=> //; rewrite /between /= ![t * _]mulrC.
 have [t [x [bt sol pos zero _]]] := enclosed_claim_sound R ok.
-exists t, x; split=> // i Hi; split=> // [|out]; first exact: pos.
+exists t, x; split=> // i Hi; split=> // [|out|out _]; first exact: pos.
+  by have [] := zero _ Hi out.
 by have [] := zero _ Hi out.
 Qed.
 
@@ -174,7 +175,7 @@ Lemma claim_known k : check_solution_claim Q k -> exists t x, known_solution (kn
 Proof.
 move=> ok; have [in_s in_b] := claimed_slip ok.
 have [t [x [bt sol signs]]] := solution_claim_sound ok.
-exists t, x; split=> // j lt_j; have [pos zero biact] := signs _ (mem_nth 0%N lt_j).
+exists t, x; split=> // j lt_j; have [pos zero biact _] := signs _ (mem_nth 0%N lt_j).
 by rewrite !mem_positions.
 Qed.
 

@@ -157,6 +157,13 @@ Definition extended (r : region) (h : interval) := Region h.1 h.2 (states r).
 Definition reaches (r : region) (h : interval) :=
   [&& ordered h.1 h.2, point_le h.1 (lower r) & point_le (upper r) h.2].
 
+Lemma in_extended (R : realFieldType) n r h t (x : nat -> R) :
+  ordered (lower r) (upper r) -> reaches r h -> in_region n t x r -> in_region n t x (extended r h).
+Proof.
+move=> O /and3P[o le_lo le_hi] [bt ag]; split=> //.
+exact: (between_wider O o le_lo le_hi bt).
+Qed.
+
 Definition window lo hi := Region lo hi [::].
 
 (* A pencil of which only the order counts. *)
@@ -228,13 +235,6 @@ Hypothesis limit_sound : forall r k x, check_limit r k x -> exists2 xs : nat -> 
 (* x' is a positive multiple of x. *)
 Definition same_direction (x x' : nat -> R) :=
   exists2 f, 0 < f & forall i, i \in indices P -> x' i = f * x i.
-
-Lemma in_extended r h t (x : nat -> R) : ordered (lower r) (upper r) -> reaches r h ->
-  in_region_of P t x r -> in_region_of P t x (extended r h).
-Proof.
-move=> O /and3P[o le_lo le_hi] [bt ag]; split=> //.
-exact: (between_wider O o le_lo le_hi bt).
-Qed.
 
 (* A leaf excludes every solution, or it yields, or it is undecided. *)
 Lemma leaf_sound r l t x :

@@ -499,13 +499,6 @@ End Motion.
 
 End Sound.
 
-Lemma between_ge0 (R : realFieldType) low high (mu : R) :
-  ordered low high -> between mu low high -> 0 <= mu.
-Proof.
-case/and5P=> n0 d0 _ _ _ [le _]; have d1 : 0 < toR low.2 :> R by rewrite toR_gt0.
-by rewrite -(pmulr_lge0 _ d1); apply: le_trans le; rewrite toR_ge0.
-Qed.
-
 Theorem zero_critical_absent (R : rcfType) z w tr from bound : check_critical z w tr from bound ->
   forall (t mu : R) v, 0 <= t -> between mu from bound -> conditions_9z z t mu v -> False.
 Proof.

@@ -286,7 +286,7 @@ case: reverse ex0 ex1 => ex0 ex1; last first.
 rewrite /check_about /local_part -(size_slips z (Lambda2 0 1)) => /andP[lo0].
 case/and4P=> /= proper grain0 /eqP same_size ok.
 exact: (about_reversed_absent (prepare ex0 wfQ bb0 ba0 proper) (prepare ex1 wfQ bb1 ba1 proper)
-  grain0 same_size bm (value_gt0 O lo0 bt) bt ag' nonzero rows0 rows1 signs both_absent ok).
+  grain0 same_size bm (between_gt0 O lo0 bt) bt ag' nonzero rows0 rows1 signs both_absent ok).
 Qed.
 
 End Sound.

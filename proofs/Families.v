@@ -129,17 +129,6 @@ by split; rewrite ?f ?t ?d ?p.
 Qed.
 
 (* t in the interval of v, and s at or above the start of v'. *)
-Lemma before_sound v v' t (s : R) : 0 < toR (value_den v) :> R -> 0 < toR (value_den v') :> R ->
-  ends_before v v' -> toR (value_den v) * t <= toR (value_to v) ->
-  toR (value_from v') <= toR (value_den v') * s -> t < s.
-Proof.
-move=> d0 d0' lt tb as_; rewrite -(ltr_pmul2l (mulr_gt0 d0 d0')).
-apply: (@le_lt_trans _ _ (toR (value_to v * value_den v')%Z)).
-  by rewrite toRM mulrAC ler_pmul2r.
-apply: (@lt_le_trans _ _ (toR (value_from v' * value_den v)%Z)); first by rewrite toR_lt.
-by rewrite toRM [toR (value_den v) * _]mulrC mulrAC ler_pmul2r.
-Qed.
-
 Lemma away_sound v pl t : check_value v -> place_checked pl -> away v pl ->
   toR (value_from v) <= toR (value_den v) * t -> toR (value_den v) * t <= toR (value_to v) ->
   in_place pl t -> is_value v t.

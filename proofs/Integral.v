@@ -81,12 +81,7 @@ by rewrite no_slip no_zero.
 Qed.
 
 Lemma system_slips s u : slip (pencil_of s u) = iota (free_number s) (size (particles s)).
-Proof.
-rewrite /slip /= iotaD filter_cat add0n.
-rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
-rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
-by rewrite add0n /= -leqNgt.
-Qed.
+Proof. exact: slip_iota. Qed.
 
 Section Equivalence.
 

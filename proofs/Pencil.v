@@ -57,6 +57,15 @@ Definition blocks_of : blocks := blocks_by (places (free Q)) slip.
 
 End Checker.
 
+(* The first variables are free. *)
+Lemma slip_iota n m ra rb : slip (Pencil (n + m) ra rb (iota 0 n)) = iota n m.
+Proof.
+rewrite /slip /= iotaD filter_cat add0n.
+rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
+rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
+by rewrite add0n /= -leqNgt.
+Qed.
+
 Section Real.
 
 Variables (R : rcfType) (Q : pencil).

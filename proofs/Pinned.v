@@ -187,13 +187,6 @@ have -> : B i j + t^-1 * A i j =
 by move: (t^-1) (A i j) (B i j) => *; ring.
 Qed.
 
-Lemma lower_gt0 (t : R) : (0 <? (lower r).1)%Z -> between t (lower r) (upper r) -> 0 < t.
-Proof.
-move=> lo1 [lo_t _]; have lo2 : 0 < toR (lower r).2 :> R.
-  by case/and5P: O => _ ? _ _ _; rewrite toR_gt0.
-by rewrite -(pmulr_lgt0 _ lo2); apply: lt_le_trans lo_t; rewrite toR_gt0.
-Qed.
-
 Theorem pinned_sound t x t' x' :
   between t (lower r) (upper r) -> between t' (lower r) (upper r) ->
   x k = V -> x' k = V -> null_vector t x -> null_vector t' x' ->
@@ -202,7 +195,7 @@ Proof.
 move=> bt bt' xk xk' null null'; have [_ kJ _ _] := pinned_parts.
 have [p q p' q'] := ordered_ge0 R O; have bx' := pinned_boxed bt' xk' null'.
 case/and5P: checked => _ _ _ _; case: (pin_reversed c) => [/andP[lo1 uniq]|uniq].
-  have t0 := lower_gt0 lo1 bt; have t0' := lower_gt0 lo1 bt'.
+  have t0 := between_gt0 O lo1 bt; have t0' := between_gt0 O lo1 bt'.
   have [a [b [comb one]]] := reversed_combination t0 bt.
   have [eq_inv eq_x] := unique_sound reversed_encloses (@moving_indices P r)
     (@others_moving P r k) kJ (uniq_moving P r) (uniq_others P r k) uniq q' p' q p comb one bx' xk
@@ -326,7 +319,7 @@ have [p q p' q'] := ordered_ge0 R O.
 have [g g0 [xk' null']] := scaled_solution D kJ V0 sol' reg'.
 have bx' := pinned_boxed pin (proj1 reg') xk' null'.
 case/and5P: pin => _ _ _ _; rewrite rev => /andP[lo1 uniq].
-have t0 := lower_gt0 lo1 (proj1 reg').
+have t0 := between_gt0 O lo1 (proj1 reg').
 
 have hi1 : 0 < toR (upper r).1 :> R.
   by case/and5P: O => _ _ _ _ /andP[+ _]; rewrite hi2 Z.add_0_r toR_gt0.

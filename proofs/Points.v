@@ -64,17 +64,11 @@ Definition check_system_at_value s u (e : point) claims c ls :=
 (* Solutions at infinity: those of the reverse at 0. *)
 Definition check_infinity Q claims c ls := check_at_value (reverse_pencil Q) zero claims c ls.
 
-Lemma lookup_outside (row : sparse_row) j : j \notin [seq c.1 | c <- row] -> lookup row j = 0%Z.
-Proof.
-elim: row => //= c row IH; rewrite inE negb_or eq_sym => /andP[/negbTE-> out].
-exact: IH.
-Qed.
-
 Lemma zero_row_lookup (row : sparse_row) : zero_row row -> forall j, lookup row j = 0%Z.
 Proof.
 move=> /allP zero j; have [|out] := boolP (j \in [seq c.1 | c <- row]).
   by case/mapP=> c /zero /Z.eqb_spec + ->.
-exact: lookup_outside.
+exact: lookup_none.
 Qed.
 
 Section Point.

@@ -560,10 +560,7 @@ Variable mu : R.
 Hypothesis bm : between mu lo hi.
 
 Lemma mu_ge0 : 0 <= mu.
-Proof.
-have [O _ _ _ _] := checked_rest; have [p0 q0 _ _] := ordered_ge0 R O; case: bm => le _.
-by case/and5P: O => _ q1 _ _ _; rewrite -(@pmulr_lge0 _ (toR lo.2)) ?toR_gt0 // (le_trans p0).
-Qed.
+Proof. by have [O _ _ _ _] := checked_rest; apply: between_ge0 O bm. Qed.
 
 Lemma mu_le : mu <= toR hi.1 / toR hi.2.
 Proof. by rewrite ler_pdivl_mulr ?hi2 //; case: bm. Qed.

@@ -548,18 +548,24 @@ apply: (@le_trans _ _ (toR (value_to v * q)%Z)); last by rewrite toR_le; apply/Z
 rewrite toRM [s * _]mulrC -mulrA mulrC [s * _]mulrC; exact: ler_wpmul2r.
 Qed.
 
+Lemma before_sound v v' t (s : R) : 0 < toR (value_den v) :> R -> 0 < toR (value_den v') :> R ->
+  (value_to v * value_den v' <? value_from v' * value_den v)%Z ->
+  toR (value_den v) * t <= toR (value_to v) -> toR (value_from v') <= toR (value_den v') * s -> t < s.
+Proof.
+move=> d0 d0' lt tb as_; rewrite -(ltr_pmul2l (mulr_gt0 d0 d0')).
+apply: (@le_lt_trans _ _ (toR (value_to v * value_den v')%Z)).
+  by rewrite toRM mulrAC ler_pmul2r.
+apply: (@lt_le_trans _ _ (toR (value_from v' * value_den v)%Z)); first by rewrite toR_lt.
+by rewrite toRM [toR (value_den v) * _]mulrC mulrAC ler_pmul2r.
+Qed.
+
 Lemma ends_apart v v' (s s' : R) : check_value v -> check_value v' ->
-  (value_to v * value_den v' < value_from v' * value_den v)%Z ->
+  (value_to v * value_den v' <? value_from v' * value_den v)%Z ->
   is_value v s -> is_value v' s' -> s < s'.
 Proof.
 move=> ok ok' lt [_ sb _] [as' _ _].
 have [_ _ d0 _] := value_parts R ok; have [_ _ d0' _] := value_parts R ok'.
-rewrite -(ltr_pmul2l (mulr_gt0 d0 d0')).
-apply: (@le_lt_trans _ _ (toR (value_to v * value_den v')%Z)).
-  by rewrite toRM mulrAC ler_pmul2r.
-apply: (@lt_le_trans _ _ (toR (value_from v' * value_den v)%Z)).
-  by rewrite toR_lt; apply/Z.ltb_spec0.
-by rewrite toRM [toR (value_den v) * _]mulrC mulrAC ler_pmul2r.
+exact: before_sound d0 d0' lt sb as'.
 Qed.
 
 Hypothesis O : ordered (lower r) (upper r).
@@ -573,7 +579,7 @@ case: pl => [v|v v'|v] /=.
   have [s is_s] := value_exists R ok; split.
     by exists s; split=> // t; apply: in_place_at.
   by move=> t at_t; split; [apply: above_point lo at_t | apply: below_point hi at_t].
-- case/andP=> ok ok' /and3P[/Z.leb_spec0 lo /Z.leb_spec0 hi /Z.ltb_spec0 lt].
+- case/andP=> ok ok' /and3P[/Z.leb_spec0 lo /Z.leb_spec0 hi lt].
   have [_ _ d0 _] := value_parts R ok; have [_ _ d0' _] := value_parts R ok'.
   have [s is_s] := value_exists R ok; have [s' is_s'] := value_exists R ok'.
   split.
@@ -590,12 +596,6 @@ move=> t /(_ _ is_s) st; split; last by rewrite q'_eq toR0 mulr0.
 by apply: le_trans (above_point q0 d0 lo is_s) _; rewrite ler_wpmul2r // ltW.
 Qed.
 
-Lemma between_ge0 (t : R) : between t (lower r) (upper r) -> 0 <= t.
-Proof.
-case=> lo _; have [p0 _ _ _] := ordered_ge0 R O; case/and5P: O => _ + _ _ _.
-rewrite -(@toR_gt0 R) => q0; rewrite -(pmulr_lge0 _ q0); exact: le_trans lo.
-Qed.
-
 Lemma reason_holds pl e h : check_reason Q r pl e -> holding_of (pl, e) = Some h -> holds h.
 Proof.
 case: e => // b /andP[ok /and3P[ins branch_ok alone_ok]] [<-].
@@ -606,7 +606,7 @@ have sol x : solution_in t x ->
   exact: (alone_sound ok at_t branch_ok alone alone_ok sol_x).
 split.
   exists (value_at t (branch_x b)); split.
-    exact: (branch_solution ok at_t branch_ok (between_ge0 (bt _ at_t))).
+    exact: (branch_solution ok at_t branch_ok (between_ge0 O (bt _ at_t))).
   by split; [apply: bt | apply: (branch_agrees ok at_t branch_ok)].
 by move=> al x x' /sol/(_ al) mx /sol/(_ al); apply: multiple_of_trans.
 Qed.

@@ -232,6 +232,18 @@ rewrite /= in z; rewrite /a z toR0 mulr0 subr0 divr_gt0 //.
 by move: d0; rewrite /d z toR0 mulr0 subr0 pmulr_lgt0.
 Qed.
 
+Lemma between_ge0 t lo hi : ordered lo hi -> between t lo hi -> 0 <= t.
+Proof.
+case/and5P=> p0 q0 _ _ _ [le _]; rewrite -(@toR_ge0 R) in p0; rewrite -(@toR_gt0 R) in q0.
+by rewrite -(pmulr_lge0 _ q0); apply: le_trans le.
+Qed.
+
+Lemma between_gt0 t lo hi : ordered lo hi -> (0 <? lo.1)%Z -> between t lo hi -> 0 < t.
+Proof.
+case/and5P=> _ q0 _ _ _ + [le _]; rewrite -(@toR_gt0 R) in q0; rewrite -(@toR_gt0 R) => p0.
+by rewrite -(pmulr_lgt0 _ q0); apply: lt_le_trans le.
+Qed.
+
 (* The ends as numbers. *)
 Lemma ends_of lo hi (a := toR lo.1 / toR lo.2 : R) (b := toR hi.1 / toR hi.2 : R) :
   ordered lo hi -> (0 <? hi.2)%Z ->

@@ -217,23 +217,6 @@ exists reverse, a, fam; move: fam_n; rewrite (nth_map no_anchor) // anchor_n.
 by case: reverse {anchor_n} ok => [/andP[]|].
 Qed.
 
-(* Regions of positive values. *)
-Lemma value_gt0 r (t : R) : ordered (lower r) (upper r) -> (0 <? (lower r).1)%Z ->
-  between t (lower r) (upper r) -> 0 < t.
-Proof.
-move=> O lo0 [lo_t _].
-have l1 : 0 < toR (lower r).1 :> R by rewrite toR_gt0.
-have l2 : 0 < toR (lower r).2 :> R by case/and5P: O => _ ? _ _ _; rewrite toR_gt0.
-by rewrite -(pmulr_lgt0 _ l2); apply: lt_le_trans lo_t.
-Qed.
-
-Lemma in_extended_region r h (t : R) x : ordered (lower r) (upper r) -> reaches r h ->
-  lies_in Q r t x -> lies_in Q (extended r h) t x.
-Proof.
-move=> O /and3P[o le_lo le_hi] [bt ag]; split=> //.
-exact: (between_wider O o le_lo le_hi bt).
-Qed.
-
 Lemma swap_known_solution q (t : R) x : 0 < t ->
   known_solution Q q t x -> known_solution (swap_pencil Q) (swap_known q) t^-1 x.
 Proof.
@@ -251,7 +234,7 @@ Proof.
 move=> O tight /at_anchorP[/andP[ba bb] [reverse [a [fam [expanded lo0 ok]]]]] t x sol [bt ag].
 have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
 case: reverse expanded lo0 ok => expanded lo0 /andP[_ ok].
-  have t0 := value_gt0 O (lo0 isT) bt; case/and3P: (ok) => proper grain0 _.
+  have t0 := between_gt0 O (lo0 isT) bt; case/and3P: (ok) => proper grain0 _.
   apply: (anchored_excludes (Q := swap_pencil Q) (And5 wf expanded bb ba proper) grain0 ok
             (t := t^-1) (x := x)) => //.
   - by case: (e) tight => //= c [].
@@ -284,7 +267,7 @@ case: r O ok lo0 => lo' hi' st /= O ok lo0; case: reverse expanded lo0 ok => exp
   - by apply/(swap_solution Q x i0); rewrite si.
   - by split=> //; have := swap_between s0 reg; rewrite /swap /= -!surjective_pairing.
   move=> t' x' sol' [bt' ag'].
-  have t0 : 0 < t' := value_gt0 (r := Region lo' hi' st) O lo0 bt'.
+  have t0 : 0 < t' := between_gt0 O lo0 bt'.
   have [ts prop] := uniq _ x' ((swap_solution Q x' t0).1 sol') (swap_between t0 bt') ag'.
   by split=> //; rewrite -ts invrK.
 move=> _ ok; case/and3P: (ok) => proper grain0 _.
@@ -314,7 +297,7 @@ have [/andP[ba bb] [reverse [a [fam [expanded lo0 at_a]]]]] := at_anchorP ok.
 have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
 case: r O bt ag at_a lo0 beside => lo' hi' st /= O' bt ag at_a lo0 beside.
 case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
-  move=> from0 at_a; have t_gt0 : 0 < t := value_gt0 (r := Region lo' hi' st) O' (lo0 isT) bt.
+  move=> from0 at_a; have t_gt0 : 0 < t := between_gt0 O' (lo0 isT) bt.
   case/and3P: (at_a) => proper grain0 _.
   have known' := swap_known_solution (known_gt0 from0 known0) known0.
   exact: (anchored_beside (Q := swap_pencil Q) (And5 wf expanded bb ba proper) grain0 at_a
@@ -339,7 +322,7 @@ case: reverse expanded lo0 at_a => expanded lo0 /andP[] /=.
     split=> //; have := swap_between i0 bt.
     by rewrite invrK /swap /= -!surjective_pairing.
   move=> t' x' sol' [bt' ag'].
-  have t0' : 0 < t' := value_gt0 (r := Region lo' hi' st) O' (lo0 isT) bt'.
+  have t0' : 0 < t' := between_gt0 O' (lo0 isT) bt'.
   have [ts prop] := uniq _ x' ((swap_solution Q x' t0').1 sol') (swap_between t0' bt') ag'.
   by split=> //; rewrite -[t']invrK ts invrK.
 move=> _ at_a; case/and3P: (at_a) => proper grain0 _.
@@ -355,7 +338,7 @@ Proof.
 move=> O /at_anchorP[/andP[ba bb] [reverse [a [fam [expanded lo0 ok]]]]] t y sol [bt ag].
 have [wf _ _ _] := varying_parts; rewrite /expand_anchor /= in expanded.
 case: reverse expanded lo0 ok => expanded lo0 /and4P[] // _ /Z.eqb_spec lo_zero dir ok.
-case/and3P: (ok) => proper grain0 _; have t0 := value_gt0 O (lo0 isT) bt.
+case/and3P: (ok) => proper grain0 _; have t0 := between_gt0 O (lo0 isT) bt.
 case/and4P: dir => cols xk /allP free0 /allP slip0.
 pose X i : R := toR (nth 0%Z x i).
 have cb i := (columns_in_rows cols i).2.
@@ -384,18 +367,18 @@ Lemma leaf_sound r l (t : R) x : ordered (lower r) (upper r) -> check_leaf r l -
 Proof.
 have [wf _ _ _] := varying_parts; move=> O ok sol reg; case: l ok; last by right.
 - move=> n grain h e /andP[rh at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
-  have {}reg := in_extended_region O rh reg; case slopes: (wants_slopes e); last first.
+  have {}reg := in_extended O rh reg; case slopes: (wants_slopes e); last first.
     by case: (root_excludes (r := extended r h) Oh (negbT slopes) at_a sol reg).
   left; case: e slopes {at_a} => // c [] // _.
   by exists (Yield (extended r h) (from_point c) (to_point c)).
 - move=> n grain h c k /and3P[rh lt_k at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
-  have {}reg := in_extended_region O rh reg; left; rewrite /varying_yield /claim_yield.
+  have {}reg := in_extended O rh reg; left; rewrite /varying_yield /claim_yield.
   case: ifP => [_|/negbT beside].
     by exists (Yield (extended r h) (known_from (known_at solutions k))
                      (known_to (known_at solutions k))).
   by case: (claim_beside (r := extended r h) Oh at_a (known_exists lt_k) beside sol reg).
 - move=> n grain h c z /andP[rh at_a]; have Oh : ordered h.1 h.2 by case/and3P: rh.
-  by case: (limit_excludes (r := extended r h) Oh at_a sol (in_extended_region O rh reg)).
+  by case: (limit_excludes (r := extended r h) Oh at_a sol (in_extended O rh reg)).
 move=> e ok; have [bt ag] := reg.
 by case: (whole_sound wf O ok bt ag sol).
 Qed.

@@ -275,33 +275,19 @@ Qed.
 Lemma pencil_claim Q k lo hi : check_solution_claim Q k -> in_window lo hi (asserted_of k) ->
   asserted_holds (sem (PencilProblem Q)) lo hi (asserted_of k).
 Proof.
-move=> ok inside; case: k ok inside => [k|c] /= ok inside.
-  have [t [x [from_t t_to sol signs]]] := claim_sound R ok.
-  have bt : between t (claim_from k, claim_denominator k) (claim_to k, claim_denominator k).
-    by rewrite /between /= ![t * _]mulrC.
-  exists t, x; split=> //; first exact: (within_between inside bt).
-  by move=> j lt_j; apply: signs; apply: mem_nth.
-have [t [x [bt sol pos zero _]]] := enclosed_claim_sound R ok.
+move=> ok inside; have [t [x [bt sol signs]]] := solution_claim_sound R ok.
 exists t, x; split=> //; first exact: (within_between inside bt).
-move=> j lt_j; have i_in := mem_nth 0%N lt_j; split=> //= [|out|out _].
-- exact: pos.
-- by have [] := zero _ i_in out.
-by have [] := zero _ i_in out.
+by move=> j lt_j; apply: signs; apply: mem_nth.
 Qed.
 
 Lemma system_claim_holds s u k lo hi : system_wellformed s u ->
   check_solution_claim (pencil_of s u) k -> in_window lo hi (asserted_of k) ->
   asserted_holds (sem (SystemProblem s u)) lo hi (asserted_of k).
 Proof.
-move=> wf; case: k => [k|c] /= ok inside.
-  have [|t [v [from_t t_to sat sup]]] := @system_claim R s u k; first exact/andP.
-  have bt : between t (claim_from k, claim_denominator k) (claim_to k, claim_denominator k).
-    by rewrite /between /= ![t * _]mulrC.
-  exists t, v; split=> //; first exact: (within_between inside bt).
-  exact: system_signs.
-have [|t [v [bt sat sup]]] := @system_enclosed R s u c; first exact/andP.
-exists t, v; split=> //; first exact: (within_between inside bt).
-exact: system_signs.
+move=> wf ok inside; have [t [x [bt sol signs]]] := solution_claim_sound R ok.
+exists t, (motion s x); split=> //; first exact/(system_pencil wf).
+  exact: (within_between inside bt).
+exact/system_signs/motion_support.
 Qed.
 
 Definition needs_wellformed p :=

@@ -118,12 +118,7 @@ exact: leq_trans lt_i (leq_addr _ _).
 Qed.
 
 Lemma zero_slips z u : slip (zero_pencil z u) = iota (free_number (without_zero z)) (slip_number z).
-Proof.
-rewrite /slip /= -addnA iotaD filter_cat add0n.
-rewrite (eq_in_filter (a2 := pred0)) ?filter_pred0; last by move=> i /= ->.
-rewrite (eq_in_filter (a2 := predT)) ?filter_predT // => i; rewrite !mem_iota => /andP[ge _].
-by rewrite add0n /= -leqNgt.
-Qed.
+Proof. by rewrite /zero_pencil /pencil_of_forms -addnA; apply: slip_iota. Qed.
 
 Lemma size_slips z u : size (slip (zero_pencil z u)) = slip_number z.
 Proof. by rewrite zero_slips size_iota. Qed.
