@@ -193,9 +193,6 @@ Hypothesis kappaP : \sum_(i <- ix) \sum_(j <- ix) `|K i j| +
   mu * (\sum_(j <- si) \sum_(i <- ix) `|C j i|) <= kappa.
 Hypothesis zero_a : forall j, j \in si -> a (nf + j)%N * slip_force x a j = 0.
 
-Lemma row_e_ge0 j : j \in si -> 0 <= row_e j.
-Proof. by move/row_eP; apply: le_trans; apply: sumr_ge0. Qed.
-
 Lemma slip_in j : j \in si -> (nf + j)%N \in ix.
 Proof. by rewrite !mem_iota !add0n /= ltn_add2l. Qed.
 

@@ -75,7 +75,6 @@ Definition corrected_at (free friction : seq sparse_row) j :=
     (row_of (gain d) j).
 
 Definition k_corrected := corrected_at k_rows (rows_b mu_pencil).
-Definition m_corrected := corrected_at m_rows (rows_b friction_pencil).
 
 Definition sum_abs row := norm1 (spread row).
 
@@ -485,9 +484,6 @@ by apply: sum_eq => i _; rewrite -corrected_lookup // normrM (gtr0_norm gu0).
 Qed.
 
 Lemma size_k : size (k_rows s) = n.
-Proof. by rewrite size_map_from !size_map size_cat !size_map. Qed.
-
-Lemma size_m : size (m_rows s) = n.
 Proof. by rewrite size_map_from !size_map size_cat !size_map. Qed.
 
 Lemma sums_k : \sum_(i <- ix) \sum_(j <- ix) `|KK i j| = toR (sumZ_of sum_abs (k_rows s)).
