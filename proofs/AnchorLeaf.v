@@ -591,9 +591,8 @@ move=> u0 [_ [i0 Hi0 xi0] rows_f rows_s].
 have part k : k \in fi -> free_of Q x k = free_values u (slip_of Q x) k.
   by move: k; apply/(free_values_rows x u0).
 split=> //; split=> //; first by apply: (slip_part_nonzero part); exists i0.
-move=> i /in_local Hi; have [x0 y0 xy] := rows_s _ (mem_nth 0%N Hi).
-rewrite (local_image _ u0 Hi part) pmulr_rge0 ?row_factor_gt0_ //; split=> //.
-by rewrite mulrCA [x _ * _]xy mulr0.
+move=> i /in_local Hi; rewrite (local_image _ u0 Hi part).
+exact/(complementary_scaled _ _ (row_factor_gt0_ Hi))/rows_s/mem_nth.
 Qed.
 
 Lemma from_family slopes u xs : 0 <= u ->
@@ -610,14 +609,12 @@ split.
 - exact/(free_values_rows x u0).
 move=> i /(nthP 0%N)[k Hk <-].
 have Hk' : k \in indices (pencil_for slopes grain) by rewrite mem_iota.
-have [x0 y0 xy] := rows _ Hk'; have f0 := row_factor_gt0_ Hk.
 have imageE : family_image (pencil_for slopes grain) local_family u xs k =
     row_factor_at k * reaction Q (t_of u) x (nth 0%N (slip Q) k).
   rewrite -(local_image slopes u0 Hk part); apply: sum_eq => j /in_local Hj.
   by rewrite slipE.
-rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //; split=> //.
-  by rewrite -(pmulr_rge0 _ f0) -imageE.
-by apply: (mulfI (lt0r_neq0 f0)); rewrite mulr0 mulrCA -imageE.
+rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //.
+by apply/(complementary_scaled _ _ (row_factor_gt0_ Hk)); rewrite -imageE; apply: rows.
 Qed.
 
 (* A multiple on the complementarity variables is one everywhere. *)

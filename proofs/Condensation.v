@@ -364,14 +364,8 @@ move: (scale_of i) (toR (unit_of w)) (toR (entry (ss_a D) i j)) => p q e.
 by move: (toR (entry (ss_b D) i j)) (xs j) => f x; ring.
 Qed.
 
-Lemma positive_multiple i y : i \in slip_ix ->
-  ((0 <= scale_of i * u ^+ 2 * y) = (0 <= y)) *
-  (forall x, (x * (scale_of i * u ^+ 2 * y) == 0) = (x * y == 0)).
-Proof.
-move=> Hi; have p : 0 < scale_of i * u ^+ 2.
-  by rewrite mulr_gt0 ?scale_gt0 // exprn_gt0 // unit_gt0.
-by split=> [|x]; rewrite ?pmulr_rge0 // mulrCA mulf_eq0 gt_eqF.
-Qed.
+Lemma factor_gt0 i : i \in slip_ix -> 0 < scale_of i * u ^+ 2.
+Proof. by move=> Hi; rewrite mulr_gt0 ?scale_gt0 // exprn_gt0 // unit_gt0. Qed.
 
 Theorem condensation_exact t xf xs :
   block_solution t xf xs <->
@@ -380,9 +374,8 @@ Theorem condensation_exact t xf xs :
 Proof.
 split=> [[t0 nonzero /free_rows_vanish xfE rows]|[[t0 nonzero rows] xfE]].
   split=> //; split=> //; last first.
-    move=> i Hi; have [x0 y0 xy] := rows _ Hi.
-    rewrite (condensed_image t xfE Hi) positive_multiple //; split=> //.
-    by apply/eqP; rewrite positive_multiple //; apply/eqP.
+    move=> i Hi; rewrite (condensed_image t xfE Hi).
+    exact/(complementary_scaled _ _ (factor_gt0 Hi))/rows.
   case: nonzero => // -[k Hk xk].
   have [/hasP[i Hi xi]|/hasPn all0] := boolP (has (fun i => xs i != 0) slip_ix).
     by exists i.
@@ -391,9 +384,8 @@ split=> [[t0 nonzero /free_rows_vanish xfE rows]|[[t0 nonzero rows] xfE]].
 
 split=> //; first by right.
   exact/free_rows_vanish.
-move=> i Hi; have [x0 + xy] := rows _ Hi.
-rewrite (condensed_image t xfE Hi) positive_multiple // => y0; split=> //.
-by apply/eqP; rewrite -(positive_multiple _ Hi).2 -(condensed_image t xfE Hi); apply/eqP.
+move=> i Hi; apply/(complementary_scaled _ _ (factor_gt0 Hi)).
+by rewrite -(condensed_image t xfE Hi); apply: rows.
 Qed.
 
 End Sound.

@@ -233,11 +233,8 @@ apply: (@about_absent R n fr rb ra rb' ra' a other fam fam' low_a low_b grain (s
   halves apart).
 - by move=> i Hi; rewrite (swap_reaction Q) // rows // mulr0.
 - by move=> i Hi; rewrite (swap_reaction Q') // rows' // mulr0.
-move=> i Hi y; have [x0 y0 xy] := signs i Hi.
-have yE : y = t^-1 * (reaction Q t x i + mu * reaction Q' t x i).
-  rewrite /y (swap_reaction Q) // (swap_reaction Q') //.
-  by move: (reaction Q t x i) (reaction Q' t x i) => *; ring.
-by rewrite yE; split=> //; [rewrite pmulr_rge0 | rewrite mulrCA xy mulr0].
+move=> i Hi y; rewrite /y (swap_reaction Q) // (swap_reaction Q') // mulrCA -mulrDr.
+exact/(complementary_scaled _ _ ti)/signs.
 Qed.
 
 Section Sound.

@@ -278,12 +278,10 @@ have reactionE t x i : reaction (scaled_pencil c Q) t x i =
 split=> //=.
 - move=> t x; split=> -[t0 nonzero rows_f rows_s]; split=> // i i_in.
   + by rewrite reactionE rows_f // mulr0.
-  + have [x0 y0 xy] := rows_s i i_in; rewrite reactionE pmulr_rge0 // mulrCA xy mulr0.
-    by split.
+  + by rewrite reactionE; apply/(complementary_scaled _ _ m0R)/rows_s.
   + have /eqP := rows_f i i_in; rewrite reactionE mulf_eq0 gt_eqF //= => /eqP.
     by [].
-  have := rows_s i i_in; rewrite reactionE pmulr_rge0 // mulrCA => -[x0 y0 /eqP].
-  by rewrite mulf_eq0 gt_eqF //= => /eqP.
+  by have := rows_s i i_in; rewrite reactionE => /(complementary_scaled _ _ m0R).
 - by move=> v j _; exists 1; rewrite ?ltr01 // mul1r.
 - by move=> t v j _; exists (toR (entry_scale c)).
 by move=> _ <-; exists c; rewrite /= ex.

@@ -266,3 +266,21 @@ by move=> i Hi; rewrite slip_rowE es //; apply: rows_s.
 Qed.
 
 End Real.
+
+(* Rows with positive factors. *)
+Lemma solution_scaled (R : rcfType) Q Q' (t t' : R) x (c : nat -> R) :
+  order Q' = order Q -> free Q' = free Q -> (0 <= t') = (0 <= t) -> (forall i, 0 < c i) ->
+  (forall i, i \in free Q ++ slip Q -> reaction Q' t' x i = c i * reaction Q t x i) ->
+  solution Q' t' x <-> solution Q t x.
+Proof.
+move=> same_order same_free same_sign c0 rows.
+rewrite /solution /slip same_order same_free same_sign -/(slip Q).
+have free_in i : i \in free Q -> i \in free Q ++ slip Q by rewrite mem_cat => ->.
+have slip_in i : i \in slip Q -> i \in free Q ++ slip Q by rewrite mem_cat orbC => ->.
+split=> -[t0 nonzero rows_f rows_s]; split=> // i Hi.
+- have /eqP := rows_f i Hi; rewrite rows ?free_in //.
+  by rewrite mulf_eq0 gt_eqF //= => /eqP.
+- by have := rows_s i Hi; rewrite rows ?slip_in // => /(complementary_scaled _ _ (c0 i)).
+- by rewrite rows ?free_in // rows_f // mulr0.
+by rewrite rows ?slip_in //; apply/(complementary_scaled _ _ (c0 i))/rows_s.
+Qed.

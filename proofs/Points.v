@@ -93,17 +93,8 @@ Qed.
 Theorem point_solution (t : R) x : wellformed Q -> between t e e ->
   solution (point_pencil Q e) t x <-> solution Q t x.
 Proof.
-move=> wf at_e; have same i i_in := @point_reaction t x i i_in at_e.
-have slip_in i : i \in slip Q -> i \in iota 0 (order Q) by apply: slip_indices.
-have free_in i : i \in free Q -> i \in iota 0 (order Q) by apply: free_indices.
-split=> -[t0 nonzero rows_f rows_s]; split=> // i Hi.
-- have := rows_f i Hi; rewrite same ?free_in // => /eqP.
-  by rewrite mulf_eq0 gt_eqF //= => /eqP.
-- have := rows_s i Hi; rewrite same ?slip_in // pmulr_rge0 // mulrCA => -[x0 y0 /eqP].
-  by rewrite mulf_eq0 gt_eqF //= => /eqP.
-- by rewrite same ?free_in // rows_f // mulr0.
-have [x0 y0 xy] := rows_s i Hi; rewrite same ?slip_in // pmulr_rge0 // mulrCA xy mulr0.
-by split.
+move=> wf at_e; apply: (solution_scaled (c := fun=> toR e.2)) => // i.
+by rewrite mem_cat => /orP[/(free_indices wf)|/slip_indices] i_in; apply: point_reaction.
 Qed.
 
 End Point.
@@ -229,16 +220,11 @@ Proof. exact: (free_indices wf). Qed.
 
 Theorem reverse_solution t x : 0 < t -> solution (reverse_pencil Q) t^-1 x <-> solution Q t x.
 Proof.
-move=> t_gt0; have t0 := lt0r_neq0 t_gt0; have i0 : 0 < t^-1 by rewrite invr_gt0.
-have factor0 i : 0 < (if constant i then 1 else t^-1) :> R by case: ifP; rewrite ?ltr01.
-split=> -[_ nonzero rows_f rows_s]; split=> //; rewrite ?invr_ge0 ?(ltW t_gt0) // => i Hi.
-- have := rows_f i Hi; rewrite reverse_reaction ?free_in // => /eqP.
-  by rewrite mulf_eq0 gt_eqF //= => /eqP.
-- have := rows_s i Hi; rewrite reverse_reaction ?slip_in // pmulr_rge0 // mulrCA => -[x0 y0 /eqP].
-  by rewrite mulf_eq0 [X in X || _]gt_eqF //= => /eqP.
-- by rewrite reverse_reaction ?free_in // rows_f // mulr0.
-have [x0 y0 xy] := rows_s i Hi; rewrite reverse_reaction ?slip_in // pmulr_rge0 // mulrCA xy.
-by rewrite mulr0.
+move=> t_gt0; have t0 := lt0r_neq0 t_gt0.
+apply: (solution_scaled (c := fun i => if constant i then 1 else t^-1)) => // [|i|i].
+- by rewrite invr_ge0.
+- by case: ifP; rewrite ?ltr01 ?invr_gt0.
+by rewrite mem_cat => /orP[/free_in|/slip_in] i_in; apply: reverse_reaction.
 Qed.
 
 Theorem reverse_at_zero x : solution (reverse_pencil Q) 0 x <-> at_infinity x.

@@ -269,7 +269,7 @@ exists t, x; split=> //.
   by rewrite -[x _]/(slip_of Q x i0) slipE.
 move=> i /(nthP 0%N)[k lt_k <-] y.
 have Hk : k \in indices (over lo hi).1 by rewrite mem_iota.
-have [x0 y0 xy] := signs k Hk; have c0 := row_factor_gt0_ R ready grain0 lt_k.
+have c0 := row_factor_gt0_ R ready grain0 lt_k.
 have image0 := local_image grain ready false u0 lt_k part.
 have image1 := local_image grain ready' false u0 lt_k part'.
 have yE : \sum_(j <- indices (over lo hi).1) F u k j * xs j =
@@ -278,9 +278,8 @@ have yE : \sum_(j <- indices (over lo hi).1) F u k j * xs j =
   rewrite /family_image mulr_sumr -big_split /=; apply: sum_eq => j.
   rewrite mem_iota => /= lt_j; rewrite -[slip_of Q' x j]/(slip_of Q x j) slipE // mulrDl.
   by rewrite -[mu * T1 u k j * xs j]mulrA.
-rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //; split=> //.
-  by rewrite -(pmulr_rge0 _ c0) -yE.
-by apply: (mulfI (lt0r_neq0 c0)); rewrite mulr0 mulrCA -yE.
+rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //.
+by apply/(complementary_scaled _ _ c0); rewrite -yE; apply: signs.
 Qed.
 
 End Present.
@@ -324,12 +323,8 @@ have back (S : pencil) i : reaction (swap_pencil S) t x i = t * reaction S t^-1 
 exists t^-1, x; split=> //; first by rewrite invr_gt0; split.
   move=> i Hi; have := rows i Hi; rewrite (back Q) => /eqP.
   by rewrite mulf_eq0 (negbTE tn0) => /eqP.
-move=> i Hi y; have [x0 y0 xy] := signs i Hi.
-have yE : reaction (swap_pencil Q) t x i + mu * reaction (swap_pencil Q') t x i = t * y.
-  rewrite (back Q) (back Q') /y.
-  by move: (reaction Q t^-1 x i) (reaction Q' t^-1 x i) => *; ring.
-move: y0 xy; rewrite yE pmulr_rge0 // => y0 xy; split=> //.
-by apply: (mulfI tn0); rewrite mulr0 mulrCA.
+move=> i Hi y; apply/(complementary_scaled _ _ t_gt0).
+by rewrite /y mulrDr [t * (mu * _)]mulrCA -(back Q) -(back Q'); apply: signs.
 Qed.
 
 Section Sound.

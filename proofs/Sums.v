@@ -121,4 +121,13 @@ rewrite -subr_gt0 (_ : _ - _ = a * (U - `|A|) + b * (V - `|B|)); last by ring.
 by apply: combination_gt0; rewrite ?subr_gt0.
 Qed.
 
+(* A positive factor of a row. *)
+Lemma complementary_scaled (c x y : R) : 0 < c ->
+  [/\ 0 <= x, 0 <= c * y & x * (c * y) = 0] <-> [/\ 0 <= x, 0 <= y & x * y = 0].
+Proof.
+move=> c0; rewrite pmulr_rge0 // mulrCA; split=> -[x0 y0 xy]; split=> //.
+  by move/eqP: xy; rewrite mulf_eq0 gt_eqF //= => /eqP.
+by rewrite xy mulr0.
+Qed.
+
 End Sums.

@@ -550,7 +550,8 @@ Qed.
 
 Lemma before_sound v v' t (s : R) : 0 < toR (value_den v) :> R -> 0 < toR (value_den v') :> R ->
   (value_to v * value_den v' <? value_from v' * value_den v)%Z ->
-  toR (value_den v) * t <= toR (value_to v) -> toR (value_from v') <= toR (value_den v') * s -> t < s.
+  toR (value_den v) * t <= toR (value_to v) ->
+  toR (value_from v') <= toR (value_den v') * s -> t < s.
 Proof.
 move=> d0 d0' lt tb as_; rewrite -(ltr_pmul2l (mulr_gt0 d0 d0')).
 apply: (@le_lt_trans _ _ (toR (value_to v * value_den v')%Z)).

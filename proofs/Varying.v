@@ -154,15 +154,10 @@ Qed.
 
 Lemma swap_solution t x : 0 < t -> solution Q t x <-> solution (swap_pencil Q) t^-1 x.
 Proof.
-move=> t_gt0; have t0 := lt0r_neq0 t_gt0; have i0 : 0 < t^-1 by rewrite invr_gt0.
-split=> -[_ nz rows_f rows_s]; split=> //; rewrite ?invr_ge0 ?(ltW t_gt0) //.
-- by move=> i Hi; rewrite swap_reaction // rows_f // mulr0.
-- move=> i Hi; have [x0 y0 xy] := rows_s i Hi; rewrite swap_reaction // pmulr_rge0 //.
-  by split=> //; rewrite mulrCA xy mulr0.
-- move=> i Hi; have := rows_f i Hi; rewrite swap_reaction // => /eqP.
-  by rewrite mulf_eq0 gt_eqF //= => /eqP.
-move=> i Hi; have := rows_s i Hi; rewrite swap_reaction // pmulr_rge0 // mulrCA.
-by case=> x0 y0 /eqP; rewrite mulf_eq0 [t^-1 == 0]gt_eqF //= => /eqP.
+move=> t_gt0; have i0 : 0 < t^-1 by rewrite invr_gt0.
+apply: iff_sym; apply: (solution_scaled (c := fun=> t^-1)) => // [|i _].
+  by rewrite invr_ge0.
+by apply: swap_reaction; rewrite gt_eqF.
 Qed.
 
 Lemma swap_between t (lo hi : point) : 0 < t -> between t lo hi ->

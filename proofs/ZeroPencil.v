@@ -705,12 +705,7 @@ by rewrite xy mulr0.
 Qed.
 
 Lemma pair_right (a x y : R) : 0 < a -> pair x (a * y) <-> pair x y.
-Proof.
-move=> a0; rewrite /pair pmulr_rge0 // mulrCA; split=> -[x0 y0 xy]; split=> //.
-  by move/eqP: xy; rewrite mulf_eq0 gt_eqF //= => /eqP.
-by rewrite xy mulr0.
-Qed.
-
+Proof. exact: complementary_scaled. Qed.
 Lemma slip_in_zero_pencil j : (j < ns)%N -> (nf + j)%N \in slip Q.
 Proof.
 move=> lt_j; rewrite mem_filter !mem_iota !add0n /= -leqNgt leq_addr /=.
