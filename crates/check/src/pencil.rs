@@ -328,26 +328,11 @@ impl FrictionParts {
     /// what the friction row of a member may be off.
     pub(super) fn at(&self, mu: &Rational) -> Rows {
         let [p, q] = [mu.numer(), mu.denom()];
-        let mut rows = self.plain.clone();
-
-        for (slip, i) in self
-            .plain
-            .complementarity_variables()
-            .into_iter()
-            .enumerate()
-        {
-            let denominator = self.share(slip).denom().clone();
-            let plain = q * &denominator;
-            let friction = p * &denominator;
-            let parts = [
-                (&self.plain.rows[i], &plain),
-                (&self.friction.rows[i], &friction),
-            ];
-            rows.rows[i] = sum_of_rows(parts);
-            rows.factor[i] *= plain;
-        }
-
-        rows
+        self.with_slip_rows(&self.plain, q, |i, share| {
+            let plain = (&self.plain.rows[i], &(q * share.denom()));
+            let friction = (&self.friction.rows[i], &(p * share.denom()));
+            sum_of_rows([plain, friction])
+        })
     }
 
     /// How far the pencil of a member at a friction mu may be from [`FrictionParts::at`], row by
@@ -356,32 +341,35 @@ impl FrictionParts {
     pub(super) fn radius_at(&self, mu: &Rational) -> Option<Rows> {
         let radii = self.radii.as_ref()?;
         let [p, q] = [mu.numer(), mu.denom()];
-        let mut rows = radii.plain.clone();
-
-        for (slip, i) in self
-            .plain
-            .complementarity_variables()
-            .into_iter()
-            .enumerate()
-        {
-            let share = self.share(slip);
-            let magnitudes: Row = self.friction.rows[i]
-                .iter()
-                .map(|(j, a, b)| (*j, a.abs(), b.abs()))
-                .collect();
-            let parts = [
+        Some(self.with_slip_rows(&radii.plain, q, |i, share| {
+            let friction = self.friction.rows[i].iter();
+            let magnitudes: Row = friction.map(|(j, a, b)| (*j, a.abs(), b.abs())).collect();
+            let enlarged = p * (share.denom() + share.numer());
+            sum_of_rows([
                 (&radii.plain.rows[i], &(q * share.denom())),
-                (
-                    &radii.friction.rows[i],
-                    &(p * (share.denom() + share.numer())),
-                ),
+                (&radii.friction.rows[i], &enlarged),
                 (&magnitudes, &(p * share.numer())),
-            ];
-            rows.rows[i] = sum_of_rows(parts);
-            rows.factor[i] *= q * share.denom();
+            ])
+        }))
+    }
+
+    /// The rows of `plain` with other slip rows, which `row` makes of their number and of the share
+    /// of their friction row, times the denominators of that share and of mu.
+    fn with_slip_rows(
+        &self,
+        plain: &Rows,
+        denominator: &Integer,
+        row: impl Fn(usize, &Rational) -> Row,
+    ) -> Rows {
+        let mut rows = plain.clone();
+        let slip = self.plain.complementarity_variables();
+        for (position, i) in slip.into_iter().enumerate() {
+            let share = self.share(position);
+            rows.rows[i] = row(i, &share);
+            rows.factor[i] *= denominator * share.denom();
         }
 
-        Some(rows)
+        rows
     }
 
     /// The share by which the friction row of a slip variable may be off.

@@ -31,7 +31,7 @@
 
 use super::budget::WorkBudget;
 use super::ends::{LongMatrix, largest_bits, rational_bits, within_matrix_bits};
-use super::expanded::{Expanded, Norms};
+use super::expanded::{Expanded, Norms, own_interval};
 use super::family::row_bits;
 use super::fault::CoverFault;
 use super::product::{
@@ -251,22 +251,17 @@ impl<'a> Anchors<'a> {
         };
 
         for piece in self.pieces.iter().filter(|p| p.anchor == Some(number)) {
-            let own = match (anchor.reversed, &piece.hi) {
-                (false, Some(hi)) => Some([piece.lo.clone(), hi.clone()]),
-                (true, hi) if piece.lo.is_positive() => Some([
-                    hi.as_ref().map_or_else(Rational::zero, Rational::recip),
-                    piece.lo.recip(),
-                ]),
-                _ => None,
+            let own = own_interval(anchor.reversed, &piece.lo, piece.hi.as_ref());
+            let Some((lowest, Some(highest))) = own else {
+                return Err(CoverFault::Unbounded {
+                    lo: piece.lo.clone(),
+                    hi: end(piece.hi.as_ref()),
+                });
             };
-            let own = own.ok_or_else(|| CoverFault::Unbounded {
-                lo: piece.lo.clone(),
-                hi: end(piece.hi.as_ref()),
-            })?;
 
-            for end in own {
-                reach.distance = reach.distance.max((&end - anchor.center).abs());
-                reach.top = reach.top.max(end);
+            for value in [lowest, highest] {
+                reach.distance = reach.distance.max((&value - anchor.center).abs());
+                reach.top = reach.top.max(value);
             }
         }
 
@@ -883,7 +878,7 @@ fn about(block: &Linear, center: &Rational, factor: &Integer) -> Linear {
     shifted
 }
 
-fn transpose(m: &Linear, cols: usize) -> Linear {
+pub(super) fn transpose(m: &Linear, cols: usize) -> Linear {
     let mut transposed = vec![Row::new(); cols];
     for (i, row) in m.iter().enumerate() {
         for (j, constant, linear) in row {

@@ -73,6 +73,24 @@ struct RemainderFactors {
     rounding: Vec<Integer>,
 }
 
+/// The interval [lo, hi] of t, or of s = 1 / t for what is reversed; `None` where that has no upper
+/// end because the interval begins at 0.
+pub(super) fn own_interval(
+    reversed: bool,
+    lo: &Rational,
+    hi: Option<&Rational>,
+) -> Option<(Rational, Option<Rational>)> {
+    if !reversed {
+        return Some((lo.clone(), hi.cloned()));
+    }
+    if lo.is_zero() {
+        return None;
+    }
+
+    let lower_s = hi.map_or_else(Rational::zero, Rational::recip);
+    Some((lower_s, Some(lo.recip())))
+}
+
 impl Expanded {
     /// Adds what members may be off.
     pub(super) fn spread(&mut self, spread: MemberSpread) {
@@ -106,23 +124,14 @@ impl Expanded {
         Ok(ends)
     }
 
-    /// The interval of t; of a reversed expansion that of s = 1 / t.
     fn own_interval(
         &self,
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> Result<(Rational, Option<Rational>), CoverFault> {
-        if !self.reversed {
-            return Ok((lo.clone(), hi.cloned()));
-        }
-
-        if lo.is_zero() {
-            let expected = "a region above 0 for a reversed anchor";
-            return Err(CoverFault::hypothesis(expected, 0));
-        }
-
-        let lower_s = hi.map_or_else(Rational::zero, Rational::recip);
-        Ok((lower_s, Some(lo.recip())))
+        let expected = "a region above 0 for a reversed anchor";
+        let own = own_interval(self.reversed, lo, hi);
+        own.ok_or_else(|| CoverFault::hypothesis(expected, 0))
     }
 
     /// The ends over [lo, infinity): T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t

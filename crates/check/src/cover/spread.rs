@@ -21,7 +21,9 @@
 //! W_max and V_max are rounded up to units of 2^-64. Input: the blocks of the radii, in the scale
 //! of those of the pencil. Called by `condensed` where the data of a problem have radii.
 
-use super::condensed::{IntegralBlocks, LinearBlocks, MatrixPolynomial, add_squares, norms, ones};
+use super::condensed::{
+    IntegralBlocks, LinearBlocks, MatrixPolynomial, add_squares, norms, ones, transpose,
+};
 use super::ends::{FRACTION_BITS, LongMatrix};
 use super::fault::CoverFault;
 use super::product::Linear;
@@ -93,6 +95,7 @@ struct RadiiAtTop {
     ff: RadiusRows,
     fs: RadiusRows,
     sf: RadiusRows,
+    sf_transposed: RadiusRows,
     ss: RadiusRows,
 }
 
@@ -113,12 +116,7 @@ impl MemberSpread {
 
         // In units of 2^-64 of those of the radii.
         let p = bound_of_residual(&at_top.fs, &at_top.ff, &w, radii.slip);
-        let q = bound_of_residual(
-            &transposed(&at_top.sf, radii.free),
-            &at_top.ff,
-            &v,
-            radii.slip,
-        );
+        let q = bound_of_residual(&at_top.sf_transposed, &at_top.ff, &v, radii.slip);
 
         let in_units_of = |residual: &LongMatrix, exponent: u32| {
             let mut squares = vec![Integer::zero(); radii.slip];
@@ -189,6 +187,7 @@ impl RadiiAtTop {
             ff: at(ff, top, &one),
             fs: at(fs, top, &one),
             sf: at(sf, top, &radii.common),
+            sf_transposed: at(&transpose(sf, radii.free), top, &radii.common),
             ss: at(ss, top, &radii.common),
         }
     }
@@ -268,17 +267,6 @@ fn add_multiple(target: &mut [Integer], factor: &Integer, row: &[Integer]) {
     for (target, entry) in target.iter_mut().zip(row) {
         *target += factor * entry;
     }
-}
-
-fn transposed(rows: &RadiusRows, columns: usize) -> RadiusRows {
-    let mut transposed = vec![Vec::new(); columns];
-    for (i, row) in rows.iter().enumerate() {
-        for (j, value) in row {
-            transposed[*j].push((i, value.clone()));
-        }
-    }
-
-    transposed
 }
 
 #[cfg(test)]
