@@ -10,7 +10,7 @@
 //! pieces of [0, infinity), and for each the expansions of both parts. Called by `mod.rs`.
 
 use super::super::families::Families;
-use super::members::{FamilyRadii, RadiiOfParts};
+use super::members::FamilyRadii;
 use crate::branch::BranchPoint;
 use crate::search::complete::CompleteError;
 use crate::search::complete::leaf::tail::{definite_at, semidefinite};
@@ -106,11 +106,10 @@ impl HalfLineFamily {
             Some(parts_of(families.of_condition())?)
         };
         let radii = families.radii.clone();
-        let of_radii = radii.as_ref().map(FamilyRadii::of_parts).transpose()?;
         let mut at_friction = at(tail_pencils.as_ref().unwrap_or(&pencils), friction)?;
         let least_free;
         let mut free = without_friction;
-        if let Some(radii) = &of_radii {
+        if let Some(radii) = &radii {
             at_friction = radii.least_at(&pencils, &at_friction, friction)?;
             least_free = radii.least_free(without_friction)?;
             free = &least_free;
@@ -180,14 +179,14 @@ impl HalfLineFamily {
             }
         }
 
-        let scales = RowScales::of(&pencils, of_radii.as_ref())?;
+        let scales = RowScales::of(&pencils, radii.as_ref())?;
         let mut expansions: Vec<[Expansion; 2]> = expansions
             .into_iter()
             .map(|pair| scales.applied_to(pair))
             .collect();
 
         let pieces = pieces_of(&prepared);
-        if let Some(radii) = &of_radii {
+        if let Some(radii) = &radii {
             for (number, pair) in expansions.iter_mut().enumerate() {
                 let factors = scales.factors(pair[0].reversed);
                 let Some(anchor) = left_friction.get(number) else {
@@ -336,18 +335,13 @@ impl HalfLineFamily {
             mass_factor_below: semidefinite(at_below.b())?,
         })
     }
-}
 
-impl HalfLineFamily {
     /// A pencil whose symmetric part is at most that of each member at a friction.
     fn least_at(&self, pencils: &[Pencil; 2], friction: &Rational) -> Option<Pencil> {
         let given = at(pencils, friction).ok()?;
         match &self.radii {
             None => Some(given),
-            Some(radii) => {
-                let radii = radii.of_parts().ok()?;
-                radii.least_at(pencils, &given, friction).ok()
-            }
+            Some(radii) => radii.least_at(pencils, &given, friction).ok(),
         }
     }
 }
@@ -372,7 +366,7 @@ pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, Com
 
 /// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of
 /// the first.
-pub(super) fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], CompleteError> {
+pub(super) fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], ModelError> {
     let stiffness = &family.stiffness;
     let mass = family.mass.as_ref().ok_or(ModelError::Missing {
         equation: "E12",
@@ -404,14 +398,14 @@ fn only_rows(matrix: &Sparse, rows: &[usize]) -> Sparse {
 }
 
 /// The pencil in t at a friction.
-fn at([constant, slope]: &[Pencil; 2], friction: &Rational) -> Result<Pencil, CompleteError> {
+fn at([constant, slope]: &[Pencil; 2], friction: &Rational) -> Result<Pencil, ModelError> {
     let free = constant.free().to_vec();
     let slip = slope.slip();
     let stiffness = only_rows(slope.a(), &slip);
     let mass = only_rows(slope.b(), &slip);
     let a = constant.a().add_scaled(friction, &stiffness);
     let b = constant.b().add_scaled(friction, &mass);
-    Ok(Pencil::new(a, b, free)?)
+    Pencil::new(a, b, free)
 }
 
 /// What turns the rows of the expansions, each scaled by its own pencil, into rows with one common
@@ -431,10 +425,7 @@ struct PartScales {
 
 impl RowScales {
     /// `radii` count where denominators are cleared.
-    fn of(
-        pencils: &[Pencil; 2],
-        radii: Option<&RadiiOfParts<'_>>,
-    ) -> Result<RowScales, CompleteError> {
+    fn of(pencils: &[Pencil; 2], radii: Option<&FamilyRadii>) -> Result<RowScales, CompleteError> {
         let exchanged = |pencil: &Pencil| {
             let free = pencil.free().to_vec();
             Pencil::new(pencil.b().clone(), pencil.a().clone(), free)

@@ -8,7 +8,6 @@
 
 use super::family::{HalfLineFamily, PieceOfHalfLine, parts_of};
 use crate::branch::BranchPoint;
-use crate::search::complete::CompleteError;
 use crate::search::complete::pieces::condense::columns_of_all;
 use crate::search::complete::pieces::expansion::{Expansion, ExpansionSpread};
 use crate::search::complete::pieces::matrix::zeros;
@@ -16,13 +15,14 @@ use crate::tolerance::ROUNDING;
 use mceip_check::certificate::{CriticalAnchor, IntegerMatrix};
 use mceip_exact::{Rational, Sparse, to_f64, whole};
 use mceip_model::reduction::radii_family;
-use mceip_model::{ContactState, ModelError, MuFamily, Pencil, System};
+use mceip_model::{ContactState, ModelError, Pencil, System};
 use num_traits::{One as _, Signed as _};
 
-/// How far the parts of a member may be from those in the middle.
+/// How far the parts of a member may be from those in the middle: the radii of T0 and T1 as two
+/// pencils, each with the free rows.
 #[derive(Clone)]
 pub(in crate::analysis) struct FamilyRadii {
-    family: MuFamily,
+    pub(super) pencils: [Pencil; 2],
     /// By slip variable: the share by which a friction row may be off.
     shares: Vec<Rational>,
 }
@@ -39,17 +39,111 @@ impl FamilyRadii {
 
         let slip = system.slip_particles().into_iter();
         Ok(Some(FamilyRadii {
-            family: radii_family(system)?,
+            pencils: parts_of(&radii_family(system)?)?,
             shares: slip.map(|(p, _)| p.friction_factor_ball().1).collect(),
         }))
     }
 
-    /// The radii of T0 and T1 with what the parts are multiplied by and condensed with.
-    pub(super) fn of_parts(&self) -> Result<RadiiOfParts<'_>, CompleteError> {
-        Ok(RadiiOfParts {
-            pencils: parts_of(&self.family)?,
-            shares: &self.shares,
-        })
+    /// The pencil with the row sums of the radii of its free block taken off the diagonal: what is
+    /// at most each member there.
+    pub(super) fn least_free(&self, pencil: &Pencil) -> Result<Pencil, ModelError> {
+        let [radii, _] = &self.pencils;
+        let free = pencil.free();
+        let in_free_block = |radius: &Sparse| {
+            let entries = radius.entries();
+            let inside = entries.filter(|(i, j, _)| free.contains(i) && free.contains(j));
+            let entries = inside.map(|(i, j, r)| (i, j, r.clone()));
+            Sparse::from_entries(radius.rows(), radius.cols(), entries)
+        };
+
+        less(
+            pencil,
+            [&in_free_block(radii.a()), &in_free_block(radii.b())],
+        )
+    }
+
+    /// The pencil T0 + mu T1 of the parts `middle` with the row sums of the symmetric radii taken
+    /// off its diagonal: its symmetric part is at most that of each member.
+    pub(super) fn least_at(
+        &self,
+        middle: &[Pencil; 2],
+        at_friction: &Pencil,
+        mu: &Rational,
+    ) -> Result<Pencil, ModelError> {
+        let [plain, friction] = &self.pencils;
+        let slip = at_friction.slip();
+        let of = |radius: [&Sparse; 2], of_friction: &Sparse| {
+            let mut more = Vec::new();
+            for (&i, share) in slip.iter().zip(&self.shares) {
+                for (j, r) in radius[1].row(i) {
+                    more.push((i, *j, r * (Rational::one() + share) * mu));
+                }
+                for (j, entry) in of_friction.row(i) {
+                    more.push((i, *j, entry.abs() * share * mu));
+                }
+            }
+            let more = Sparse::from_entries(radius[0].rows(), radius[0].cols(), more);
+            let half = whole(1) / whole(2);
+            let sum = radius[0].add_scaled(&Rational::one(), &more);
+            let none = Sparse::zeros(sum.rows(), sum.cols());
+            none.add_scaled(&half, &sum)
+                .add_scaled(&half, &sum.transpose())
+        };
+        let of_a = of([plain.a(), friction.a()], middle[1].a());
+        let of_b = of([plain.b(), friction.b()], middle[1].b());
+
+        less(at_friction, [&of_a, &of_b])
+    }
+
+    /// The spread of both expansions where there are no free variables. `factors` are those of the
+    /// rows.
+    pub(super) fn spread_linear(&self, pair: &mut [Expansion; 2], factors: &[f64]) {
+        for (part, expansion) in pair.iter_mut().enumerate() {
+            let scaled = |radius: &Sparse| {
+                let mut matrix = zeros(factors.len());
+                for (i, j, r) in radius.entries() {
+                    matrix[i][j] = (1.0 + ROUNDING) * factors[i] * to_f64(r);
+                }
+                matrix
+            };
+            let radii = &self.pencils[part];
+            expansion.spread = Some(ExpansionSpread {
+                constant: scaled(radii.a()),
+                slope: scaled(radii.b()),
+                shares: self.shares_of(part),
+            });
+        }
+    }
+
+    /// The spread of both expansions about an anchor, over the pieces that name it. Its friction
+    /// rows have the radii of the second part.
+    pub(super) fn spread_about(
+        &self,
+        pair: &mut [Expansion; 2],
+        anchor: &CriticalAnchor,
+        served: &[&PieceOfHalfLine],
+        factors: &[f64],
+    ) {
+        let reach = ServedReach::of(&pair[0], served);
+        let width = factors.len();
+        let left_of_plain = anchor.left.as_deref().unwrap_or(&anchor.right);
+        let w = largest_values(&anchor.right, reach.distance, width);
+        for (part, expansion) in pair.iter_mut().enumerate() {
+            let left = [left_of_plain, &anchor.left_friction][part];
+            let mut v = largest_values(left, reach.distance, width);
+            for (column, factor) in v.iter_mut().zip(factors) {
+                column.iter_mut().for_each(|entry| *entry *= factor);
+            }
+
+            let radii = LargestRadii::of(&self.pencils[part], &reach, expansion.reversed, factors);
+            radii.spread(expansion, &w, &v, self.shares_of(part));
+        }
+    }
+
+    /// Rows of the second part may be off by their shares as well.
+    fn shares_of(&self, part: usize) -> Vec<f64> {
+        let share = |share: &Rational| if part == 1 { to_f64(share) } else { 0.0 };
+        self.shares.iter().map(share).collect()
     }
 }
 
@@ -129,118 +223,8 @@ impl HalfLineFamily {
     }
 }
 
-/// The same as two pencils, each with the free rows.
-pub(super) struct RadiiOfParts<'a> {
-    pub(super) pencils: [Pencil; 2],
-    shares: &'a [Rational],
-}
-
-impl RadiiOfParts<'_> {
-    /// The pencil with the row sums of the radii of its free block taken off the diagonal: what is
-    /// at most each member there.
-    pub(super) fn least_free(&self, pencil: &Pencil) -> Result<Pencil, CompleteError> {
-        let [radii, _] = &self.pencils;
-        let free = pencil.free();
-        let in_free_block = |radius: &Sparse| {
-            let entries = radius.entries();
-            let inside = entries.filter(|(i, j, _)| free.contains(i) && free.contains(j));
-            let entries = inside.map(|(i, j, r)| (i, j, r.clone()));
-            Sparse::from_entries(radius.rows(), radius.cols(), entries)
-        };
-
-        less(
-            pencil,
-            [&in_free_block(radii.a()), &in_free_block(radii.b())],
-        )
-    }
-
-    /// The pencil T0 + mu T1 of the parts `middle` with the row sums of the symmetric radii taken
-    /// off its diagonal: its symmetric part is at most that of each member.
-    pub(super) fn least_at(
-        &self,
-        middle: &[Pencil; 2],
-        at_friction: &Pencil,
-        mu: &Rational,
-    ) -> Result<Pencil, CompleteError> {
-        let [plain, friction] = &self.pencils;
-        let slip = at_friction.slip();
-        let of = |radius: [&Sparse; 2], of_friction: &Sparse| {
-            let mut more = Vec::new();
-            for (&i, share) in slip.iter().zip(self.shares) {
-                for (j, r) in radius[1].row(i) {
-                    more.push((i, *j, r * (Rational::one() + share) * mu));
-                }
-                for (j, entry) in of_friction.row(i) {
-                    more.push((i, *j, entry.abs() * share * mu));
-                }
-            }
-            let more = Sparse::from_entries(radius[0].rows(), radius[0].cols(), more);
-            let half = whole(1) / whole(2);
-            let sum = radius[0].add_scaled(&Rational::one(), &more);
-            let none = Sparse::zeros(sum.rows(), sum.cols());
-            none.add_scaled(&half, &sum)
-                .add_scaled(&half, &sum.transpose())
-        };
-        let of_a = of([plain.a(), friction.a()], middle[1].a());
-        let of_b = of([plain.b(), friction.b()], middle[1].b());
-
-        less(at_friction, [&of_a, &of_b])
-    }
-
-    /// The spread of both expansions where there are no free variables. `factors` are those of the
-    /// rows.
-    pub(super) fn spread_linear(&self, pair: &mut [Expansion; 2], factors: &[f64]) {
-        for (part, expansion) in pair.iter_mut().enumerate() {
-            let scaled = |radius: &Sparse| {
-                let mut matrix = zeros(factors.len());
-                for (i, j, r) in radius.entries() {
-                    matrix[i][j] = (1.0 + ROUNDING) * factors[i] * to_f64(r);
-                }
-                matrix
-            };
-            let radii = &self.pencils[part];
-            expansion.spread = Some(ExpansionSpread {
-                constant: scaled(radii.a()),
-                slope: scaled(radii.b()),
-                shares: self.shares_of(part),
-            });
-        }
-    }
-
-    /// The spread of both expansions about an anchor, over the pieces that name it. Its friction
-    /// rows have the radii of the second part.
-    pub(super) fn spread_about(
-        &self,
-        pair: &mut [Expansion; 2],
-        anchor: &CriticalAnchor,
-        served: &[&PieceOfHalfLine],
-        factors: &[f64],
-    ) {
-        let reach = ServedReach::of(&pair[0], served);
-        let width = factors.len();
-        let left_of_plain = anchor.left.as_deref().unwrap_or(&anchor.right);
-        let w = largest_values(&anchor.right, reach.distance, width);
-        for (part, expansion) in pair.iter_mut().enumerate() {
-            let left = [left_of_plain, &anchor.left_friction][part];
-            let mut v = largest_values(left, reach.distance, width);
-            for (column, factor) in v.iter_mut().zip(factors) {
-                column.iter_mut().for_each(|entry| *entry *= factor);
-            }
-
-            let radii = LargestRadii::of(&self.pencils[part], &reach, expansion.reversed, factors);
-            radii.spread(expansion, &w, &v, self.shares_of(part));
-        }
-    }
-
-    /// Rows of the second part may be off by their shares as well.
-    fn shares_of(&self, part: usize) -> Vec<f64> {
-        let share = |share: &Rational| if part == 1 { to_f64(share) } else { 0.0 };
-        self.shares.iter().map(share).collect()
-    }
-}
-
 /// The pencil with the row sums of two matrices taken off the diagonals of A and B.
-fn less(pencil: &Pencil, [of_a, of_b]: [&Sparse; 2]) -> Result<Pencil, CompleteError> {
+fn less(pencil: &Pencil, [of_a, of_b]: [&Sparse; 2]) -> Result<Pencil, ModelError> {
     let reduced = |matrix: &Sparse, radius: &Sparse| {
         let order = matrix.rows();
         let sum_of_row = |i: usize| radius.row(i).iter().map(|(_, r)| r.clone()).sum();
@@ -250,7 +234,7 @@ fn less(pencil: &Pencil, [of_a, of_b]: [&Sparse; 2]) -> Result<Pencil, CompleteE
     };
     let a = reduced(pencil.a(), of_a);
     let b = reduced(pencil.b(), of_b);
-    Ok(Pencil::new(a, b, pencil.free().to_vec())?)
+    Pencil::new(a, b, pencil.free().to_vec())
 }
 
 /// What an anchor serves, in its own variable.

@@ -136,12 +136,12 @@ pub(crate) fn condense(
 
     let low = to_f64(window.min());
     let wide = if lowest_frequency > 0.0 && top.is_finite() {
-        let wide = DefiniteAnchors {
+        let all_definite = DefiniteAnchors {
             elimination: &elimination,
             lowest_frequency,
             precision,
         };
-        wide.anchors(definite.whole, low, top)
+        all_definite.anchors(definite.whole, low, top)
     } else {
         WideAnchors::none(top)
     };
