@@ -220,3 +220,91 @@ fn warnings_of_a_problem() {
         assert_verdict(folder.path(), &with_field, expected, field);
     }
 }
+
+/// A radius is one number or a symmetric matrix that is not negative, of a matrix that is given.
+#[test]
+#[cfg_attr(not(has_python3), ignore = "needs python3")]
+fn radii_of_a_system() {
+    let folder = tempfile::tempdir().unwrap();
+    let none_coupled = json!({ "rows": 6, "cols": 6, "entries": [] });
+    let coupled = |i, j, radius| json!({ "rows": 6, "cols": 6, "symmetric": true, "entries": [[i, j, radius]] });
+    let one_sided = json!({ "rows": 6, "cols": 6, "entries": [[0, 1, "1/2"]] });
+
+    let cases = [
+        (json!(null), READ),
+        (json!({}), READ),
+        (json!([]), REFUSED),
+        (json!({ "friction": 1 }), REFUSED),
+        (json!({ "stiffness": null }), READ),
+        (json!({ "stiffness": 1 }), REFUSED),
+        (json!({ "stiffness": {} }), REFUSED),
+        (json!({ "stiffness": { "absolute": "1/100" } }), READ),
+        (json!({ "stiffness": { "absolute": 0 } }), READ),
+        (json!({ "stiffness": { "absolute": 100 } }), READ),
+        (json!({ "stiffness": { "absolute": -1 } }), REFUSED),
+        (json!({ "stiffness": { "absolute": [1] } }), REFUSED),
+        (json!({ "stiffness": { "relative": 1e-3 } }), READ),
+        (json!({ "stiffness": { "relative": "-1/2" } }), REFUSED),
+        (
+            json!({ "stiffness": { "absolute": 1, "relative": "1/2" } }),
+            REFUSED,
+        ),
+        (json!({ "stiffness": { "matrix": none_coupled } }), READ),
+        (
+            json!({ "stiffness": { "matrix": coupled(1, 0, "1/2") } }),
+            READ,
+        ),
+        (
+            json!({ "stiffness": { "matrix": coupled(1, 0, "-1/2") } }),
+            REFUSED,
+        ),
+        (json!({ "stiffness": { "matrix": one_sided } }), REFUSED),
+        (json!({ "stiffness": { "matrix": [[1]] } }), REFUSED),
+        (json!({ "mass": { "absolute": 1 } }), REFUSED),
+        (json!({ "mass": null }), READ),
+    ];
+
+    let slip = json!({ "tangential": 0, "normal": 1, "state": "slip", "sign": 1 });
+    for (radii, expected) in cases {
+        let mut problem = system(json!([slip]));
+        let what = format!("radii {radii}");
+        problem["system"]["radii"] = radii;
+        assert_verdict(folder.path(), &problem, expected, &what);
+    }
+}
+
+/// The interval of a friction factor holds the factor, and no particle of such a problem is in
+/// contact without a reaction.
+#[test]
+#[cfg_attr(not(has_python3), ignore = "needs python3")]
+fn intervals_of_friction_factors() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [
+        (json!(null), READ),
+        (json!(["1/2", "3/2"]), READ),
+        (json!([0, 1]), READ),
+        (json!([1, 2]), READ),
+        (json!([1, 1]), REFUSED),
+        (json!([2, 1]), REFUSED),
+        (json!([-1, 1]), REFUSED),
+        (json!([2, 3]), REFUSED),
+        (json!([0, 1, 2]), REFUSED),
+        (json!([0, null]), REFUSED),
+        (json!("1/2"), REFUSED),
+    ];
+
+    let slip = json!({ "tangential": 0, "normal": 1, "state": "slip", "sign": 1 });
+    for state in ["slip", "stick", "zero"] {
+        for (range, expected) in &cases {
+            let mut particles = json!([slip, { "tangential": 2, "normal": 3, "state": state }]);
+            if state == "slip" {
+                particles[1]["sign"] = json!(-1);
+            }
+            let what = format!("{state}, range {range}");
+            particles[1]["friction_factor_range"] = range.clone();
+            let is_beside_zero = state == "zero" && !range.is_null();
+            let expected = if is_beside_zero { REFUSED } else { *expected };
+            assert_verdict(folder.path(), &system(particles), expected, &what);
+        }
+    }
+}
