@@ -31,8 +31,8 @@ worded! {
     Stick "stick particle" "A stick particle.",
     CoupledMass "mass that couples T and N" "A mass matrix that couples T and N: M1 does not \
                                              vanish.",
-    NearThreshold "near a threshold" "At a relative distance of 10^-3 to 10^-15 from a threshold, a \
-                                      double root or a biactive index.",
+    NearThreshold "near a threshold" "At a relative distance of 10^-3 to 10^-15 from a threshold, \
+                                      a double root or a biactive index.",
     IllConditioned "ill-conditioned" "Matrices of large condition number.",
     HugeScale "huge entries" "Entries of 1e12 and more.",
     TinyScale "tiny entries" "Entries of 10^-12 and less.",

@@ -40,7 +40,8 @@ worded! {
     /// How well the rivals of spec/rivals.md did on a case.
     Difficulty:
     Easy "easy" "Every rival is correct.",
-    Medium "medium" "Some rival is correct or finds half of the solutions, and some is not correct.",
+    Medium "medium" "Some rival is correct or finds half of the solutions, and some is not \
+        correct.",
     Hard "hard" "No rival is correct, and none finds half of the solutions.",
 }
 
