@@ -301,6 +301,7 @@ class Members:
         middle: the critical friction coefficient in the middle of them, in doubles, or None.
         width: how far from it theirs may be, to first order in the radii, or None.
         costs: which numbers of the data that width is due to, and how much each; the largest first.
+        obstacle: why the search ended early, or None.
     """
 
     absent_below: Fraction | None
@@ -308,6 +309,7 @@ class Members:
     middle: float | None
     width: float | None
     costs: dict[str, float] = field(repr=False)
+    obstacle: str | None
 
 
 def members_of(answer: dict[str, Any]) -> Members:
@@ -321,6 +323,7 @@ def members_of(answer: dict[str, Any]) -> Members:
         first_order["middle"],
         first_order["width"],
         {cost["of"]: cost["width"] for cost in first_order["costs"]},
+        answer["obstacle"],
     )
 
 

@@ -274,6 +274,7 @@ impl Analysis {
             "absent": absence,
             "present": presence,
             "first_order": first_order,
+            "obstacle": members.obstacle,
         }))
     }
 

@@ -25,13 +25,13 @@ use crate::branch::BranchPoint;
 use crate::run::Progress;
 use crate::tolerance::CRITICAL_GAPS;
 use mceip_check::AcceptedPresence;
-use mceip_exact::{Rational, from_f64, to_f64, whole};
+use mceip_exact::{Rational, Sparse, from_f64, to_f64, whole};
 use mceip_model::{Body, Problem, System, Unknown, Window};
 use num_traits::Zero as _;
 use std::cell::RefCell;
 
 /// What is proved of every member of a system with radii.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Members {
     /// No member has a solution with mu in (0, this], and why; `None` where that is proved of no
     /// mu.
@@ -41,6 +41,18 @@ pub struct Members {
     /// How far the critical mu of a member may be from that in the middle, to first order, and that
     /// mu; `None` where no solution is known.
     pub first_order: Option<FirstOrder>,
+    /// Why the search ended early: the radii may leave undecided what it supposes.
+    pub obstacle: Option<String>,
+}
+
+impl Members {
+    /// Nothing is proved, for this reason.
+    pub(super) fn hindered(error: &AnalysisError) -> Members {
+        Members {
+            obstacle: Some(error.to_string()),
+            ..Members::default()
+        }
+    }
 }
 
 /// The critical mu in the middle of all members, and the first-order width about it.
@@ -87,32 +99,6 @@ impl UncertainNumber {
     }
 }
 
-impl FirstOrder {
-    /// Where the critical mu of members may lie, and what costs most.
-    pub(super) fn text(&self, particles: &[String]) -> String {
-        let costs = self.costs.iter().take(NAMED_COSTS);
-        let costs = costs.map(|cost| {
-            let share = 100.0 * cost.width / self.width;
-            format!("{} ({share:.1} %)", cost.of.text(particles))
-        });
-        let costs: Vec<String> = costs.collect();
-        let most = if costs.is_empty() {
-            String::new()
-        } else {
-            format!("; most is due to {}", costs.join(", "))
-        };
-
-        format!(
-            "Every body within the radii of the data: to first order the critical mu is within \
-             {:.2e} of {:.7}{most}.",
-            self.width, self.middle
-        )
-    }
-}
-
-/// Costs that a sentence names.
-const NAMED_COSTS: usize = 3;
-
 /// Multiples of the first-order width at which bounds are tried, each this much larger than the one
 /// before, and halvings of the gap between the last one in vain and the first that holds.
 const FIRST_MULTIPLE: f64 = 1.05;
@@ -123,7 +109,8 @@ const HALVINGS: usize = 4;
 /// Bounds of absence tried where no solution is known: multiples of the mu of the analysis.
 const UNITS: [f64; 3] = [1024.0, 16.0, 1.0];
 
-/// Presence is proved up to this multiple of the bound at least, as far as the curve goes.
+/// Where presence is proved the curve is followed up to this multiple of the bound, as far as it
+/// goes.
 const ABOVE: f64 = 1.25;
 
 /// Costs that are kept.
@@ -136,7 +123,25 @@ pub(super) fn members(
     friction: &Rational,
     found: &CriticalFound,
     proofs: &mut Vec<Proof>,
-) -> Result<Members, AnalysisError> {
+) -> Members {
+    let mut members = Members::default();
+    let searched = bound_members(model, system, friction, found, proofs, &mut members);
+    if let Err(error) = searched {
+        members.obstacle = Some(error.to_string());
+    }
+
+    members
+}
+
+/// What is found goes into `members`, what proves it into `proofs`.
+fn bound_members(
+    model: &AnalysisModel<'_>,
+    system: &System,
+    friction: &Rational,
+    found: &CriticalFound,
+    proofs: &mut Vec<Proof>,
+    members: &mut Members,
+) -> Result<(), AnalysisError> {
     let stage = "every member: condensing";
     model.watch.report(&Progress::stage(stage));
 
@@ -157,38 +162,23 @@ pub(super) fn members(
         last: RefCell::default(),
     };
 
-    let mut members = Members {
-        absent_below: None,
-        present: None,
-        first_order: None,
+    let mut prover = match &found.start {
+        Some(start) => Some((start, search.prover(start)?)),
+        None => None,
     };
-    if let Some(start) = &found.start {
-        let prover = search.prover(start)?;
-        if let Some(point) = prover.smallest(start) {
-            members.first_order = Some(search.first_order(system, prover.family(), &point));
-        }
+    if let Some((start, prover)) = &prover
+        && let Some(point) = prover.smallest(start)
+    {
+        members.first_order = Some(first_order(system, prover.family(), &point));
     }
 
     // The radii may cost nothing to first order.
-    let place = members.first_order.as_ref();
-    let place = place.map(|found| {
-        (
-            found.middle,
-            found.width.max(CRITICAL_GAPS[0] * found.middle),
-        )
+    let place = members.first_order.as_ref().map(|found| {
+        let width = found.width.max(CRITICAL_GAPS[0] * found.middle);
+        (found.middle, width)
     });
     let absence = match place {
-        Some((middle, width)) => {
-            // middle - off for a small one, and never negative.
-            let below = |multiple: f64| {
-                let off = multiple * width;
-                short_bound(middle, off / (middle + off))
-            };
-            smallest_multiple(|multiple| match below(multiple) {
-                Some(below) => search.absence(&below),
-                None => Ok(None),
-            })?
-        }
+        Some((middle, width)) => search.absence_near(middle, width)?,
         None => search.absence_far(friction)?,
     };
     if let Some((below, proof)) = absence {
@@ -196,42 +186,14 @@ pub(super) fn members(
         members.absent_below = Some((below, Evidence::Certificate(proofs.len() - 1)));
     }
 
-    if let (Some(start), Some((middle, width))) = (&found.start, place)
-        && let Some((range, proof)) = search.presence(start, middle + width)?
+    if let (Some((start, prover)), Some((middle, width))) = (&mut prover, place)
+        && let Some((range, proof)) = search.presence(start, prover, middle + width)
     {
         proofs.push(proof);
         members.present = Some((range, Evidence::Certificate(proofs.len() - 1)));
     }
 
-    Ok(members)
-}
-
-/// What is proved at the smallest multiple that is found.
-fn smallest_multiple<T>(
-    mut prove: impl FnMut(f64) -> Result<Option<T>, AnalysisError>,
-) -> Result<Option<T>, AnalysisError> {
-    let mut in_vain = 1.0;
-    for k in 0..MULTIPLES {
-        let mut holds = FIRST_MULTIPLE * LARGER_MULTIPLE.powi(k);
-        let Some(mut proved) = prove(holds)? else {
-            in_vain = holds;
-            continue;
-        };
-
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (in_vain + holds);
-            match prove(middle)? {
-                Some(sharper) => {
-                    proved = sharper;
-                    holds = middle;
-                }
-                None => in_vain = middle,
-            }
-        }
-        return Ok(Some(proved));
-    }
-
-    Ok(None)
+    Ok(())
 }
 
 /// The search for both bounds.
@@ -279,6 +241,46 @@ impl<'a> MembersSearch<'a> {
         Ok(Some((below.clone(), proof)))
     }
 
+    /// Absence below a bound near the solution in the middle: at the smallest multiple of the width
+    /// below it that is found.
+    fn absence_near(
+        &self,
+        middle: f64,
+        width: f64,
+    ) -> Result<Option<(Rational, Proof)>, AnalysisError> {
+        let absence_at = |multiple: f64| {
+            // middle - off for a small one, and never negative.
+            let off = multiple * width;
+            match short_bound(middle, off / (middle + off)) {
+                Some(below) => self.absence(&below),
+                None => Ok(None),
+            }
+        };
+
+        let mut in_vain = 1.0;
+        for k in 0..MULTIPLES {
+            let mut holds = FIRST_MULTIPLE * LARGER_MULTIPLE.powi(k);
+            let Some(mut proved) = absence_at(holds)? else {
+                in_vain = holds;
+                continue;
+            };
+
+            for _ in 0..HALVINGS {
+                let between = 0.5 * (in_vain + holds);
+                match absence_at(between)? {
+                    Some(sharper) => {
+                        proved = sharper;
+                        holds = between;
+                    }
+                    None => in_vain = between,
+                }
+            }
+            return Ok(Some(proved));
+        }
+
+        Ok(None)
+    }
+
     /// Absence below a bound that no solution suggests.
     fn absence_far(&self, friction: &Rational) -> Result<Option<(Rational, Proof)>, AnalysisError> {
         for factor in UNITS {
@@ -306,78 +308,77 @@ impl<'a> MembersSearch<'a> {
     fn presence(
         &self,
         start: &BranchStart,
+        prover: &mut Prover<'a>,
         from: f64,
-    ) -> Result<Option<([Rational; 2], Proof)>, AnalysisError> {
+    ) -> Option<([Rational; 2], Proof)> {
         if self.model.stopped() {
-            return Ok(None);
+            return None;
         }
 
         let stage = format!("every member: proving presence from {from:.7}");
         self.model.watch.report(&Progress::stage(&stage));
-        let mut prover = self.prover(start)?;
         prover.climb_about(start, from, ABOVE * from);
         let proved = prover.certified().into_iter();
-        let lowest = proved.min_by(|p, q| p.accepted().from.cmp(&q.accepted().from));
-        let Some(proved) = lowest else {
-            return Ok(None);
-        };
+        let proved = proved.min_by(|p, q| p.accepted().from.cmp(&q.accepted().from))?;
 
         let AcceptedPresence { from, to, .. } = proved.accepted().clone();
         let certificate = ProofCertificate::Presence(proved);
         self.model
             .keep("members-presence", self.problem, &certificate);
         let proof = Proof::new("members-presence", self.problem.clone(), certificate);
-        Ok(Some(([from, to], proof)))
-    }
-
-    /// The first-order width at the solution of smallest mu, and what it is made of.
-    fn first_order(
-        &self,
-        system: &System,
-        family: &HalfLineFamily,
-        point: &BranchPoint,
-    ) -> FirstOrder {
-        let per_mu = point.of_mu.abs();
-        let modes = family.modes(system, point);
-        let mut costs = Vec::new();
-        let radii = system.radii();
-        for (radius, factor, number) in [
-            (
-                &radii.stiffness,
-                1.0,
-                UncertainNumber::Stiffness as fn(usize, usize) -> UncertainNumber,
-            ),
-            (&radii.mass, point.t, UncertainNumber::Mass),
-        ] {
-            let entries = radius.iter().flat_map(|radius| radius.entries());
-            for (i, j, radius) in entries.filter(|(i, j, _)| i <= j) {
-                let mirrored = if i == j {
-                    0.0
-                } else {
-                    modes.left[j] * modes.right[i]
-                };
-                let both = modes.left[i] * modes.right[j] + mirrored;
-                costs.push(MemberCost {
-                    of: number(i, j),
-                    width: factor * to_f64(radius) * both.abs() / per_mu,
-                });
-            }
-        }
-        for (particle, of_factor) in modes.of_factors {
-            costs.push(MemberCost {
-                of: UncertainNumber::FrictionFactor(particle),
-                width: point.mu * of_factor.abs() / per_mu,
-            });
-        }
-
-        let width = costs.iter().map(|cost| cost.width).sum();
-        costs.retain(|cost| cost.width > 0.0);
-        costs.sort_by(|p, q| q.width.total_cmp(&p.width));
-        costs.truncate(COSTS);
-        FirstOrder {
-            middle: point.mu,
-            width,
-            costs,
-        }
+        Some(([from, to], proof))
     }
 }
+
+/// The first-order width at the solution of smallest mu, and what it is made of.
+fn first_order(system: &System, family: &HalfLineFamily, point: &BranchPoint) -> FirstOrder {
+    let per_mu = point.of_mu.abs();
+    let modes = family.modes(system, point);
+    let of_matrix = |radius: Option<&Sparse>, factor: f64, number: NumberOf| {
+        let entries = radius.into_iter().flat_map(Sparse::entries);
+        let of_upper = entries.filter(|(i, j, _)| i <= j);
+        let cost = |(i, j, radius): (usize, usize, &Rational)| {
+            let mirrored = if i == j {
+                0.0
+            } else {
+                modes.left[j] * modes.right[i]
+            };
+            let both = modes.left[i] * modes.right[j] + mirrored;
+            MemberCost {
+                of: number(i, j),
+                width: factor * to_f64(radius) * both.abs() / per_mu,
+            }
+        };
+        of_upper.map(cost).collect::<Vec<_>>()
+    };
+
+    let radii = system.radii();
+    let mut costs = of_matrix(radii.stiffness.as_ref(), 1.0, UncertainNumber::Stiffness);
+    costs.extend(of_matrix(
+        radii.mass.as_ref(),
+        point.t,
+        UncertainNumber::Mass,
+    ));
+    costs.extend(
+        modes
+            .of_factors
+            .iter()
+            .map(|&(particle, of_factor)| MemberCost {
+                of: UncertainNumber::FrictionFactor(particle),
+                width: point.mu * of_factor.abs() / per_mu,
+            }),
+    );
+
+    let width = costs.iter().map(|cost| cost.width).sum();
+    costs.retain(|cost| cost.width > 0.0);
+    costs.sort_by(|p, q| q.width.total_cmp(&p.width));
+    costs.truncate(COSTS);
+    FirstOrder {
+        middle: point.mu,
+        width,
+        costs,
+    }
+}
+
+/// An entry of one of the matrices.
+type NumberOf = fn(usize, usize) -> UncertainNumber;

@@ -99,16 +99,9 @@ pub fn analyse(
     let ground = CriticalGround::of(&model, friction, &mut proofs)?;
     let known = ground.known(friction);
     let found = critical::critical(&model, &known, &mut proofs)?;
-    let members = match &given {
-        None => None,
-        Some(_) => Some(self::members(
-            &model,
-            with_radii,
-            friction,
-            &found,
-            &mut proofs,
-        )?),
-    };
+    let members = given
+        .is_some()
+        .then(|| self::members(&model, with_radii, friction, &found, &mut proofs));
     let CriticalGround {
         families,
         necessary,
@@ -218,7 +211,7 @@ fn members(
     friction: &Rational,
     found: &CriticalFound,
     proofs: &mut Vec<Proof>,
-) -> Result<Members, AnalysisError> {
+) -> Members {
     let middle = with_radii.middle();
     let has_own_factors = middle
         .particles()
@@ -229,14 +222,20 @@ fn members(
         return members::members(model, with_radii, friction, found, proofs);
     }
 
-    // The body in the middle has other factors.
+    // The body in the middle has other factors. What is proved of it is not kept: it would take the
+    // names of what is proved of the body as given.
     let of_middle = AnalysisModel {
         system: &middle,
+        watch: model.watch.kept_by(None),
         ..*model
     };
-    let ground = CriticalGround::of(&of_middle, friction, &mut Vec::new())?;
-    let found = critical::critical(&of_middle, &ground.known(friction), &mut Vec::new())?;
-    members::members(model, with_radii, friction, &found, proofs)
+    let mut unused = Vec::new();
+    let found = CriticalGround::of(&of_middle, friction, &mut unused)
+        .and_then(|ground| critical::critical(&of_middle, &ground.known(friction), &mut unused));
+    match found {
+        Ok(found) => members::members(model, with_radii, friction, &found, proofs),
+        Err(error) => Members::hindered(&error),
+    }
 }
 
 /// The first answer of [`analyse`] alone: divergence at a mu, with the certificate where a search

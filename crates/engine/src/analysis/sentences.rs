@@ -11,6 +11,7 @@ use super::critical::Obstacle;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
 use super::flutter::Flutter;
+use super::members::FirstOrder;
 use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
 use super::stability::Stability;
@@ -81,6 +82,9 @@ const LONGEST_FRACTION: usize = 24;
 
 /// Regions or values named in a sentence; the others are counted.
 const NAMED: usize = 3;
+
+/// Costs of radii that a sentence names.
+const NAMED_COSTS: usize = 3;
 
 /// "a, b, c and 4 more".
 fn named(all: &[String]) -> String {
@@ -451,19 +455,47 @@ impl Analysis {
             });
         }
 
-        said.push(members.first_order.as_ref().map_or_else(
-            || Sentence {
+        if let Some(obstacle) = &members.obstacle {
+            said.push(Sentence {
+                topic,
+                text: format!("{whose}: the search ended early ({obstacle})."),
+                evidence: Evidence::Measured("the radii may be larger than any proof bears"),
+            });
+        }
+
+        said.push(match &members.first_order {
+            Some(first_order) => Sentence {
+                topic,
+                text: format!("{whose}: {}.", self.first_order_text(first_order)),
+                evidence: Evidence::Measured("first order in the radii, in doubles"),
+            },
+            None => Sentence {
                 topic,
                 text: format!("{whose}: no solution is known from which the critical mu may vary."),
                 evidence: Evidence::Measured("the search for solutions"),
             },
-            |first_order| Sentence {
-                topic,
-                text: first_order.text(&self.particles),
-                evidence: Evidence::Measured("first order in the radii, in doubles"),
-            },
-        ));
+        });
         said
+    }
+
+    /// Where the critical mu of members may lie, and what costs most.
+    fn first_order_text(&self, first_order: &FirstOrder) -> String {
+        let costs = first_order.costs.iter().take(NAMED_COSTS);
+        let costs = costs.map(|cost| {
+            let share = 100.0 * cost.width / first_order.width;
+            format!("{} ({share:.1} %)", cost.of.text(&self.particles))
+        });
+        let costs: Vec<String> = costs.collect();
+        let most = if costs.is_empty() {
+            String::new()
+        } else {
+            format!("; most is due to {}", costs.join(", "))
+        };
+
+        format!(
+            "to first order the critical mu is within {:.2e} of {:.7}{most}",
+            first_order.width, first_order.middle
+        )
     }
 
     /// What proves the equilibrium stable at the mu that was asked for.

@@ -21,8 +21,8 @@ impl Analysis {
         parts.extend(self.stable_range());
         parts.push(self.critical_bounds());
         parts.extend(self.presence());
-        parts.extend(self.of_members());
         parts.push(self.standing().to_string());
+        parts.extend(self.of_members());
         parts.join(" ")
     }
 
@@ -221,14 +221,16 @@ impl Analysis {
         });
 
         let clauses: Vec<String> = absent.into_iter().chain(present).collect();
-        let proved = if clauses.is_empty() {
-            "nothing is proved".into()
+        Some(if clauses.is_empty() {
+            "All this is of the data as given; of every body within their radii nothing is proved."
+                .into()
         } else {
-            clauses.join(", and ")
-        };
-        Some(format!(
-            "So much for the data as given; of all bodies within their radii {proved}."
-        ))
+            format!(
+                "All this is of the data as given; of every body within their radii certificates \
+                 prove that {}.",
+                clauses.join(", and that ")
+            )
+        })
     }
 
     /// Is anything said of single mu, and not of the mu between them?
