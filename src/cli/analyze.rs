@@ -19,7 +19,8 @@ use crate::say::{number_text, warnings_text};
 use mceip_engine::analysis::{
     Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, Verdict,
 };
-use mceip_engine::run::Kept;
+use mceip_engine::lean::shorten_file;
+use mceip_engine::run::{Kept, Watch};
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::file::SystemFile;
@@ -51,6 +52,10 @@ pub(super) struct Args {
     /// it is accepted.
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
+    /// Leave the matrices out of the certificates that `check` can make anew (mceip-lean/1): those
+    /// of large bodies are much shorter.
+    #[arg(long, requires = "certificates")]
+    lean: bool,
     /// Write the answers with their evidence and the modes as one HTML page that needs no network;
     /// with pictures of the body where the problem file has coordinates.
     #[arg(long, value_name = "OUT")]
@@ -89,7 +94,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let samples = samples(args, system)?;
 
     let keeping = match &args.certificates {
-        Some(folder) => Some(Proofs::prepare(folder, &args.file)?),
+        Some(folder) => Some(Proofs::prepare(folder, args)?),
         None => None,
     };
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
@@ -209,22 +214,35 @@ fn exit_code(analysis: &Analysis) -> u8 {
 /// search has proved every minute.
 struct Proofs {
     folder: Folder,
+    /// Are they written without what can be made anew?
+    is_lean: bool,
     /// The names of the proofs written so far.
     written: Mutex<BTreeSet<String>>,
 }
 
 impl Proofs {
     /// Makes the folder if it is not there; refuses one in which no file can be made.
-    fn prepare(folder: &Path, input: &Path) -> Result<Proofs, CliError> {
+    fn prepare(folder: &Path, args: &Args) -> Result<Proofs, CliError> {
         Ok(Proofs {
-            folder: Folder::prepare("certificates", folder, &[input])?,
+            folder: Folder::prepare("certificates", folder, &[&args.file])?,
+            is_lean: args.lean,
             written: Mutex::default(),
         })
     }
 
     fn keep(&self, kept: &Kept<'_>) -> Result<(), CliError> {
         self.written().insert(kept.name.to_owned());
-        self.folder.write_proof(kept)
+        let lean = if self.is_lean {
+            shorten_file(kept.problem, kept.certificate, &Watch::nobody())?
+        } else {
+            None
+        };
+
+        let certificate = lean.as_deref().unwrap_or(kept.certificate);
+        self.folder.write_proof(&Kept {
+            certificate,
+            ..*kept
+        })
     }
 
     /// Writes all proofs of the analysis, and removes those that others have taken the place of;

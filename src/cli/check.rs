@@ -25,6 +25,7 @@ use mceip_check::{
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
+use mceip_engine::lean::{HasAnchors, LEAN_FORMAT, elaborate, skeleton};
 use mceip_engine::run::Progress;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
 use mceip_exact::{enclosing_decimals, parse, to_f64};
@@ -41,9 +42,9 @@ pub(super) struct Args {
     /// (mceip-mcp/1).
     file: PathBuf,
     /// Certificate (mceip-certificate/1, mceip-critical/1, mceip-presence/1, mceip-stability/1; of
-    /// a body under loads mceip-equilibrium/1), or somebody's solutions (mceip-solutions/1): each
-    /// of those is certified and checked, or refuted. Of a plain problem: its solution file
-    /// (mceip-mcp-solution/1).
+    /// a body under loads mceip-equilibrium/1), the lean form of one (mceip-lean/1), or somebody's
+    /// solutions (mceip-solutions/1): each of those is certified and checked, or refuted. Of a
+    /// plain problem: its solution file (mceip-mcp-solution/1).
     certificate: PathBuf,
     /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper
     /// end); one that does not is rejected.
@@ -76,7 +77,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         refuse_options(args, EQUILIBRIUM_FORMAT)?;
         let loads = read_loads_of(&problem, &args.file)?;
         let source = text("the certificate", &args.certificate)?;
-        return verdict::<EquilibriumCertificate>(args, loads.body(), &source, equilibrium_text);
+        let certificate: EquilibriumCertificate = read(args, &source)?;
+        return verdict(&certificate, loads.body(), equilibrium_text);
     }
 
     let problem = load(&args.file, None)?;
@@ -86,56 +88,103 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return foreign(args, &problem, &source, tolerance.unwrap_or(AGREEMENT));
     }
 
+    let is_lean = require_format(&source, LEAN_FORMAT).is_ok();
+    let source = if is_lean {
+        skeleton(&source).map_err(|e| CliError::file(&args.certificate, e))?
+    } else {
+        source
+    };
+    let given = SecondFile {
+        args,
+        problem: &problem,
+        source: &source,
+        is_lean,
+    };
+
     if require_format(&source, CRITICAL_FORMAT).is_ok() {
         refuse_options(args, CRITICAL_FORMAT)?;
-        return verdict::<CriticalCertificate>(args, &problem, &source, absence_text);
+        return given.judged(|certificate: &CriticalCertificate| {
+            verdict(certificate, &problem, absence_text)
+        });
     }
 
     if require_format(&source, PRESENCE_FORMAT).is_ok() {
         refuse_options(args, PRESENCE_FORMAT)?;
-        return verdict::<PresenceCertificate>(args, &problem, &source, presence_text);
+        return given.judged(|certificate: &PresenceCertificate| {
+            verdict(certificate, &problem, presence_text)
+        });
     }
 
     if require_format(&source, STABILITY_FORMAT).is_ok() {
         refuse_options(args, STABILITY_FORMAT)?;
-        return verdict::<StabilityCertificate>(args, &problem, &source, stability_text);
+        let certificate: StabilityCertificate = read(args, &source)?;
+        return verdict(&certificate, &problem, stability_text);
     }
 
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
-    let read = Certificate::from_json(&source);
-    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+    given.judged(
+        |certificate: &Certificate| match decided(|| check(&problem, certificate)) {
+            Ok(accepted) => say_accepted(&problem, certificate, &accepted, demanded.as_ref()),
+            Err(rejected) => say_rejected(&rejected),
+        },
+    )
+}
 
-    match decided(|| check(&problem, &certificate)) {
-        Ok(accepted) => say_accepted(&problem, &certificate, &accepted, demanded.as_ref()),
-        Err(rejected) => {
-            print(&format!("REJECTED: {rejected}\n"))?;
-            Ok(exit::REJECTED)
+/// A certificate with anchors, as a file has it or as a lean file leaves it to be made anew.
+struct SecondFile<'a> {
+    args: &'a Args,
+    problem: &'a Problem,
+    source: &'a str,
+    is_lean: bool,
+}
+
+impl SecondFile<'_> {
+    /// The verdict on the certificate, with what a lean file leaves out made anew.
+    fn judged<C: HasAnchors>(
+        &self,
+        verdict: impl FnOnce(&C) -> Result<u8, CliError>,
+    ) -> Result<u8, CliError> {
+        let mut certificate: C = read(self.args, self.source)?;
+        if self.is_lean {
+            let job = Job::begin_with_nothing_to_keep("making W and V anew");
+            let made = job.watched(|watch| elaborate(self.problem, &mut certificate, watch));
+            job.end();
+            if let Err(e) = made {
+                return say_rejected(&e);
+            }
         }
+
+        verdict(&certificate)
     }
+}
+
+fn read<C: Provable>(args: &Args, source: &str) -> Result<C, CliError> {
+    C::read(source).map_err(|e| CliError::file(&args.certificate, e))
+}
+
+fn say_rejected(why: &impl std::fmt::Display) -> Result<u8, CliError> {
+    print(&format!("REJECTED: {why}\n"))?;
+    Ok(exit::REJECTED)
 }
 
 /// The verdict on a certificate of a kind that leaves nothing open; `proved` says what an accepted
 /// one has proved.
 fn verdict<C: Provable>(
-    args: &Args,
+    certificate: &C,
     subject: &C::Subject,
-    source: &str,
     proved: fn(&C::Subject, &C::Accepted) -> String,
 ) -> Result<u8, CliError> {
-    let read = C::read(source);
-    let certificate = read.map_err(|e| CliError::file(&args.certificate, e))?;
-
     let checked = decided(|| {
         let accepted = certificate.check(subject)?;
         Ok::<_, Rejected>(proved(subject, &accepted))
     });
-    let (text, code) = match checked {
-        Ok(text) => (text, exit::DONE),
-        Err(rejected) => (format!("REJECTED: {rejected}\n"), exit::REJECTED),
-    };
-
-    print(&text)?;
-    Ok(code)
+    match checked {
+        Ok(text) => {
+            print(&text)?;
+            Ok(exit::DONE)
+        }
+        Err(rejected) => say_rejected(&rejected),
+    }
 }
 
 /// No solution below a friction.

@@ -105,6 +105,9 @@ pub(super) enum CliError {
     /// The checker refuses as a whole what it has accepted claim by claim.
     #[error("the certificate is refused: {0}")]
     Refused(#[from] mceip_check::Rejected),
+    /// A certificate has no lean form.
+    #[error(transparent)]
+    Lean(#[from] mceip_engine::lean::LeanError),
     /// The test kit refuses a run.
     #[error(transparent)]
     Testkit(#[from] TestkitError),

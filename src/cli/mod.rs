@@ -10,6 +10,7 @@ mod common;
 mod complete;
 mod conform;
 mod convert;
+mod elaborate;
 mod enumerate;
 mod explain;
 mod infinity;
@@ -70,6 +71,8 @@ enum Command {
     Convert(convert::Args),
     /// Check a certificate against a problem, exactly.
     Check(check::Args),
+    /// A lean certificate with its matrices made anew, or a full one without them.
+    Elaborate(elaborate::Args),
     /// Run somebody else's program on problems with complete exact answers.
     Conform(conform::Args),
     /// The two particles of Fig. 1: closed form beside the enumerator.
@@ -99,6 +102,7 @@ impl Command {
             Command::Merge(_)
             | Command::Convert(_)
             | Command::Check(_)
+            | Command::Elaborate(_)
             | Command::Table1(_)
             | Command::Reduce(_)
             | Command::Explain(_)
@@ -142,6 +146,7 @@ pub fn main() -> ExitCode {
         Command::Analyze(a) => analyze::run(&a),
         Command::Certify(a) => certify::run(&a),
         Command::Convert(a) => convert::run(&a),
+        Command::Elaborate(a) => elaborate::run(&a),
         Command::Check(a) => check::run(&a),
         Command::Conform(a) => conform::run_command(&a),
         Command::Table1(a) => table1::run(&a),

@@ -11,6 +11,8 @@ mod corpus_reader;
 #[cfg(feature = "testkit")]
 #[path = "../support/cover.rs"]
 mod cover;
+#[path = "../support/program.rs"]
+mod program;
 #[cfg(feature = "testkit")]
 #[path = "../support/python_checker.rs"]
 mod python_checker;
@@ -31,6 +33,7 @@ mod complete_infinity_forged;
 mod complete_mutants;
 mod corpus;
 mod critical;
+mod lean;
 mod local_modes;
 mod mutated_claims;
 mod second_checker;

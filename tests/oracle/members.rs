@@ -150,7 +150,11 @@ fn radii_beyond_every_hypothesis_leave_the_answer_about_the_body() {
         let members = of_all.members.as_ref().unwrap();
         assert!(members.absent_below.is_none() && members.present.is_none());
         assert!(members.obstacle.is_some(), "{}", instance.label);
-        assert!(of_all.summary().contains("within their radii nothing is proved"));
+        assert!(
+            of_all
+                .summary()
+                .contains("within their radii nothing is proved")
+        );
     }
     assert!(free >= 6, "{free}");
 }

@@ -20,6 +20,7 @@
 //! | [`foreign`] | somebody's solutions, judged |
 //! | [`report`] | `mceip-solutions/1`, and tables |
 //! | [`lcp`] | plain LCP and MCP files |
+//! | [`lean`] | certificates without the matrices that are made anew |
 //! | [`candidate`], [`tolerance`] | a claimed solution in doubles; every tolerance |
 //! | [`run`] | cancelling a long run, and its progress |
 
@@ -32,6 +33,7 @@ mod dense;
 pub mod equilibrium;
 pub mod foreign;
 pub mod lcp;
+pub mod lean;
 mod magnitude;
 pub mod multistart;
 pub mod reduction;

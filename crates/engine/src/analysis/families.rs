@@ -6,10 +6,10 @@
 //!
 //! Input: a system. Called by [`analyse`](super::analyse), `critical` and `absence`.
 
-use super::absence::FamilyRadii;
+use super::absence::{FamilyRadii, parts_of};
 use super::conditions::{DefiniteUntil, Necessary, condensed};
 use mceip_model::reduction::{mu_family, zero_variables};
-use mceip_model::{ModelError, MuFamily, System, ZeroVariables};
+use mceip_model::{ModelError, MuFamily, Pencil, System, ZeroVariables};
 
 /// The families of a system.
 pub(super) struct Families {
@@ -65,4 +65,13 @@ impl Families {
     pub(super) fn of_condition(&self) -> &MuFamily {
         self.with_zero_free.as_ref().unwrap_or(&self.own)
     }
+}
+
+/// The pencils T0 and T1 of a system, T = T0 + mu T1, as they are condensed: those in the middle of
+/// all members, the free rows in both.
+///
+/// # Errors
+/// As [`mu_family`].
+pub(crate) fn friction_parts(system: &System) -> Result<[Pencil; 2], ModelError> {
+    parts_of(&Families::of(system)?.own)
 }

@@ -57,6 +57,7 @@ use conditions::{Necessary, is_all_slip};
 use critical::{BranchStart, CriticalFound, KnownOfSystem};
 use divergence::divergence;
 use families::Families;
+pub(crate) use families::friction_parts;
 use mceip_check::certificate::{Certificate, StabilityCertificate};
 use mceip_check::{AcceptedStability, Proved};
 use mceip_exact::{Rational, to_f64, whole};

@@ -19,6 +19,7 @@ use crate::search::complete::pieces::condense::{DefinitePencils, beside};
 use crate::search::complete::pieces::expansion::Expansion;
 use crate::search::complete::pieces::matrix::times;
 use crate::search::complete::pieces::prepared::Prepared;
+use crate::search::complete::pieces::reverse::exchanged;
 use crate::search::complete::pieces::view::{View, common_row_factor, row_factor};
 use crate::tolerance::{FIRST_NEAR, NEARER};
 use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
@@ -366,7 +367,7 @@ pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, Com
 
 /// The pencils in t of mu = 0 and of the coefficients of mu; the second one has the free rows of
 /// the first.
-pub(super) fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], ModelError> {
+pub(in crate::analysis) fn parts_of(family: &MuFamily) -> Result<[Pencil; 2], ModelError> {
     let stiffness = &family.stiffness;
     let mass = family.mass.as_ref().ok_or(ModelError::Missing {
         equation: "E12",
@@ -426,10 +427,6 @@ struct PartScales {
 impl RowScales {
     /// `radii` count where denominators are cleared.
     fn of(pencils: &[Pencil; 2], radii: Option<&FamilyRadii>) -> Result<RowScales, CompleteError> {
-        let exchanged = |pencil: &Pencil| {
-            let free = pencil.free().to_vec();
-            Pencil::new(pencil.b().clone(), pencil.a().clone(), free)
-        };
         let [constant, slope] = pencils;
         let reversed = [exchanged(constant)?, exchanged(slope)?];
 

@@ -26,7 +26,7 @@ use crate::search::complete::tree::TreeSearch;
 use boxes::Absence;
 pub(super) use boxes::{Blocked, Cause};
 use family::PieceOfHalfLine;
-pub(super) use family::{HalfLineFamily, PrecisePlace, unit_of_lambda2};
+pub(super) use family::{HalfLineFamily, PrecisePlace, parts_of, unit_of_lambda2};
 use mceip_check::Proved;
 use mceip_check::certificate::{CriticalCertificate, Node, Piece};
 use mceip_exact::Rational;

@@ -104,7 +104,7 @@ const SLACK_OF_CENTER: f64 = 0.01;
 const MAX_ANCHORS: usize = 64;
 
 /// Largest binary exponent of a rounded matrix.
-const MAX_EXPONENT: i32 = 900;
+pub(crate) const MAX_EXPONENT: i32 = 900;
 
 /// A centre, and the value up to which it is used.
 pub(crate) struct Center {
@@ -300,7 +300,7 @@ fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
 }
 
 /// Solutions with F(center), which is given by its Cholesky factor.
-struct CenterSolver<'a> {
+pub(crate) struct CenterSolver<'a> {
     blocks: &'a PencilBlocks,
     factor: Skyline,
     center: f64,
@@ -315,7 +315,7 @@ struct Taylor {
 
 impl<'a> CenterSolver<'a> {
     /// `None` where F is not definite in doubles.
-    fn about(blocks: &'a PencilBlocks, center: f64) -> Option<CenterSolver<'a>> {
+    pub(crate) fn about(blocks: &'a PencilBlocks, center: f64) -> Option<CenterSolver<'a>> {
         Some(CenterSolver {
             factor: blocks.factor_at(center)?,
             blocks,
@@ -334,12 +334,36 @@ impl<'a> CenterSolver<'a> {
             1
         };
 
+        self.coefficients(given, degree + 1, |k, columns| {
+            Rounded::of(columns, bits - BITS_PER_DEGREE * k as i32)
+        })
+    }
+
+    /// The Taylor coefficients of F^-1 (C + tD), each rounded to units of 2^-exponent.
+    pub(crate) fn rounded_to(
+        &self,
+        given: &LinearColumns,
+        exponents: &[u32],
+    ) -> Vec<IntegerMatrix> {
+        let taylor = self.coefficients(given, exponents.len(), |k, columns| {
+            Rounded::to(columns, exponents[k])
+        });
+        taylor.integers
+    }
+
+    /// So many coefficients, each rounded before the next one is computed from it.
+    fn coefficients(
+        &self,
+        given: &LinearColumns,
+        count: usize,
+        rounded: impl Fn(usize, &SlipColumns) -> Rounded,
+    ) -> Taylor {
         let mut taylor = Taylor::default();
-        for k in 0..=degree {
+        for k in 0..count {
             let mut columns = self.right_hand_sides(given, k, taylor.rounded.last());
             self.factor.solve_all(&mut columns);
 
-            let rounded = Rounded::of(&columns, bits - BITS_PER_DEGREE * k as i32);
+            let rounded = rounded(k, &columns);
             taylor.integers.push(rounded.integers);
             taylor.rounded.push(rounded.columns);
         }
@@ -504,6 +528,11 @@ impl Rounded {
             .flatten()
             .fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
         let exponent = (bits - largest.log2().ceil() as i32).clamp(0, MAX_EXPONENT);
+        Rounded::to(columns, exponent.unsigned_abs())
+    }
+
+    /// Rounds columns to units of 2^-exponent.
+    fn to(columns: &SlipColumns, exponent: u32) -> Rounded {
         let unit = f64::from(exponent).exp2();
 
         let mut rounded = SlipColumns::new();
@@ -519,10 +548,7 @@ impl Rounded {
         }
 
         Rounded {
-            integers: IntegerMatrix {
-                exponent: exponent.unsigned_abs(),
-                rows,
-            },
+            integers: IntegerMatrix { exponent, rows },
             columns: rounded,
         }
     }

@@ -380,7 +380,7 @@ fn fine_center(value: f64) -> Option<Rational> {
 pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let bounds = bounds_of(condensation);
     let elimination = FreeElimination::new(pencil, bounds);
-    let exchanged = exchanged(pencil);
+    let exchanged = exchanged(pencil).ok();
     let reversed = exchanged
         .as_ref()
         .map(|exchanged| FreeElimination::new(exchanged, bounds.exchanged()));
@@ -408,7 +408,7 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
 /// `None` where F is not definite in doubles.
 pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec<Beside>> {
     let bounds = bounds_of(condensation);
-    let exchanged = exchanged(pencil)?;
+    let exchanged = exchanged(pencil).ok()?;
     let elimination = FreeElimination::new(pencil, bounds);
     let reversed = FreeElimination::new(&exchanged, bounds.exchanged());
     let width = pencil.slip().len();

@@ -9,7 +9,7 @@ use super::expansion::Expansion;
 use crate::search::complete::dyadic::short_near;
 use mceip_check::certificate::Anchor;
 use mceip_exact::Rational;
-use mceip_model::Pencil;
+use mceip_model::{ModelError, Pencil};
 
 /// A reversed anchor and the value from which it is used.
 pub(crate) struct ReversedAnchor {
@@ -18,9 +18,9 @@ pub(crate) struct ReversedAnchor {
 }
 
 /// The pencil with its matrices exchanged.
-pub(crate) fn exchanged(pencil: &Pencil) -> Option<Pencil> {
+pub(crate) fn exchanged(pencil: &Pencil) -> Result<Pencil, ModelError> {
     let free = pencil.free().to_vec();
-    Pencil::new(pencil.b().clone(), pencil.a().clone(), free).ok()
+    Pencil::new(pencil.b().clone(), pencil.a().clone(), free)
 }
 
 /// The reversed anchor of a pencil; `None` unless B_ff is positive definite.
@@ -29,7 +29,7 @@ pub(crate) fn beyond(pencil: &Pencil, bounds: SpectrumBounds) -> Option<Reversed
         return None;
     }
 
-    let exchanged = exchanged(pencil)?;
+    let exchanged = exchanged(pencil).ok()?;
     let elimination = FreeElimination::new(&exchanged, bounds.exchanged());
     let blocks = &elimination.blocks;
     let lowest = blocks.lowest_frequency(&blocks.stiffness.cholesky()?);
