@@ -11,7 +11,7 @@ struct Tool {
     is_there: fn() -> bool,
 }
 
-const TOOLS: [Tool; 3] = [
+const TOOLS: [Tool; 4] = [
     Tool {
         cfg: "has_python3",
         is_there: || python("pass"),
@@ -19,6 +19,10 @@ const TOOLS: [Tool; 3] = [
     Tool {
         cfg: "has_numpy",
         is_there: || python("import numpy"),
+    },
+    Tool {
+        cfg: "has_octave",
+        is_there: || Command::new("octave-cli").arg("--version").output().is_ok(),
     },
     Tool {
         cfg: "has_verified_checker",

@@ -108,10 +108,20 @@ function out = report(problem)
   out = ['{"format":"mceip-solutions/1","solutions":[', strjoin(found, ','), ']}'];
 end
 
+function out = next_line(file)
+  % The next line, or nothing at the end. Octave's fgetl waits for the line after it.
+  out = '';
+  letter = fread(file, 1, '*char');
+  while ~isempty(letter) && letter ~= newline
+    out(end + 1) = letter;
+    letter = fread(file, 1, '*char');
+  end
+end
+
 input_file = fopen('/dev/stdin', 'r');
 while true
-  line = fgetl(input_file);
-  if ~ischar(line)
+  line = next_line(input_file);
+  if isempty(line)
     break
   end
   fprintf('%s\n', report(jsondecode(line)));

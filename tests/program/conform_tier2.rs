@@ -356,7 +356,10 @@ fn exported_cases_are_read_back() {
 
 /// The template for Octave gets the labels of the one for Python.
 #[test]
-#[ignore = "needs Octave (Debian: octave) and python3 with numpy"]
+#[cfg_attr(
+    not(all(has_numpy, has_octave)),
+    ignore = "needs Octave (Debian: octave) and python3 with numpy"
+)]
 fn the_templates_get_the_same_labels() {
     let python = repository("spec/examples/adapter.py");
     let octave = repository("spec/examples/adapter.m");
