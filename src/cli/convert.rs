@@ -196,7 +196,8 @@ fn write_states(
     let coordinates = match &args.coordinates {
         Some(path) => {
             let table = read_node_table(path, &indices)?;
-            Some(coordinates(path, table, &system)?)
+            let placed = Coordinates::new(table.nodes, table.edges, &system);
+            Some(placed.map_err(|source| CliError::file(path, source))?)
         }
         None => None,
     };
@@ -326,11 +327,9 @@ fn write_body(
     changes.extend(directions(body.system().particles()));
     let coordinates = match &args.coordinates {
         Some(path) => {
-            let mut table = read_node_table(path, &indices)?;
-            for dof in table.nodes.iter_mut().flat_map(|node| &mut node.dofs) {
-                *dof = dof.and_then(|given| body.places()[given]);
-            }
-            Some(coordinates(path, table, body.system())?)
+            let table = read_node_table(path, &indices)?;
+            let placed = Coordinates::under_loads(table.nodes, table.edges, &body);
+            Some(placed.map_err(|source| CliError::file(path, source))?)
         }
         None => None,
     };
@@ -519,12 +518,6 @@ fn read_node_table(path: &Path, indices: &DofIndices) -> Result<NodeTable, CliEr
     let source = text("the coordinates", path)?;
     let table = read_nodes(&source, &|name| indices.index(name));
     table.map_err(|e| CliError::other_file(path, e))
-}
-
-/// The nodes of a table.
-fn coordinates(path: &Path, table: NodeTable, system: &System) -> Result<Coordinates, CliError> {
-    let coordinates = Coordinates::new(table.nodes, table.edges, system);
-    coordinates.map_err(|source| CliError::file(path, source))
 }
 
 /// A displacement for each of `order` degrees of freedom: plain numbers, or Matrix Market.

@@ -11,7 +11,7 @@ use mceip_engine::equilibrium::{StatesNotCertified, certify_equilibrium};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::{Rational, from_f64, to_f64};
 use mceip_model::file::{LoadsFile, Number, folder_of, read_loads, read_text, write_loads};
-use mceip_model::{ContactState, LoadedBody, Particle, Unknown, Window};
+use mceip_model::{ContactState, Coordinates, LoadedBody, Particle, Unknown, Window};
 use mceip_path::{Contact, Equilibrium, LoadSteps, LoadingPath, RateSolutions, Stretch};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -296,7 +296,7 @@ impl LoadPath {
         let name = file.name.as_deref().unwrap_or("loading path");
         let step = &file.body.steps()[at.step].name;
         problem.name = Some(format!("{name}, stretch {stretch} ({step})"));
-        problem.coordinates.clone_from(&file.coordinates);
+        problem.coordinates = file.coordinates.as_ref().map(Coordinates::without_loads);
         problem.warnings.clone_from(&file.warnings);
         Ok(problem)
     }

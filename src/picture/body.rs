@@ -38,8 +38,10 @@ pub struct BodyDrawing<'a> {
 /// A body in an equilibrium under load.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyUnderLoad<'a> {
-    /// Over all degrees of freedom.
+    /// Over all degrees of freedom of the system.
     pub displacement: &'a [f64],
+    /// (x, y) of each node, where its degrees of freedom are held; 0 elsewhere.
+    pub prescribed: &'a [(f64, f64)],
     /// (r_T, r_N) of each particle.
     pub reactions: &'a [(f64, f64)],
 }

@@ -22,8 +22,8 @@ const LINE: usize = 3;
 /// `contact` is 0 where a node belongs to no particle, else 1 out of contact, 2 stick, 3 impending
 /// slip, 4 in contact with zero reaction. `mode` is v, in the length of the coordinates, up to a
 /// factor; `slips` is 1 where the particle slips in the mode. The points lie where the body is at
-/// rest; `displacement` is 0 where a degree of freedom is held, even by a step that moves it, and
-/// `held` is 1 at such nodes. `reaction` is the force on the body
+/// rest; where a degree of freedom is held `displacement` is what the steps prescribe, and `held` is
+/// 1 at such nodes. `reaction` is the force on the body
 /// along x and y at nodes of particles, `normal_reaction` its part -r_N >= 0 that presses.
 pub fn body_vtu(body: &BodyDrawing<'_>) -> String {
     let nodes = body.coordinates.nodes();
@@ -110,9 +110,9 @@ fn point_data(body: &BodyDrawing<'_>) -> Element {
 fn with_load(data: Element, body: &BodyDrawing<'_>, load: &BodyUnderLoad<'_>) -> Element {
     let mut displacements = Vec::new();
     let mut held = Vec::new();
-    for node in body.coordinates.nodes() {
+    for (node, prescribed) in body.coordinates.nodes().iter().zip(load.prescribed) {
         let [x, y] = node.dofs.map(|dof| component(load.displacement, dof));
-        displacements.push((x, y));
+        displacements.push((x + prescribed.0, y + prescribed.1));
         held.push(i32::from(node.dofs.contains(&None)));
     }
 

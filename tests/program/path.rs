@@ -435,6 +435,9 @@ fn the_body_under_load_is_written_for_paraview() {
     let at = |name: &str, array: &str| point_data(&format!("{vtk}/{name}"), array);
     assert_eq!(at("body.vtu", "contact"), [2.0, 2.0, 1.0, 0.0]);
     assert_eq!(at("step-01.vtu", "held"), [0.0, 0.0, 0.0, 1.0]);
+    // The plate is held, and moved by the steps.
+    assert_eq!(at("step-01.vtu", "displacement")[9..], [0.0, -0.2, 0.0]);
+    assert_eq!(at("step-02.vtu", "displacement")[9..], [-1.0, -0.2, 0.0]);
 
     // Every obstacle is below: the reactions at the end of a step are those of its last stretch.
     for (name, last) in [("step-01.vtu", 1), ("step-02.vtu", 7)] {

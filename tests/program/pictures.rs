@@ -359,6 +359,7 @@ fn a_body_is_a_vtu_file() {
     // The tangent of the first particle is (4/5, 3/5), that of the second one (1, 0).
     drawing.load = Some(BodyUnderLoad {
         displacement: &[0.25, 0.5, f64::INFINITY, 0.0, 1.0],
+        prescribed: &[(0.0, 0.0), (0.0, 0.0), (0.0, -0.5)],
         reactions: &[(5.0, -10.0), (0.0, 0.0)],
     });
     let text = body_vtu(&drawing);
@@ -368,7 +369,7 @@ fn a_body_is_a_vtu_file() {
         let found = arrays.find(|n| n.attribute("Name") == Some(name));
         found.unwrap().text().unwrap().to_string()
     };
-    assert_eq!(array("displacement"), "2.5e-1 5e-1 0 0e0 0e0 0 1e0 0e0 0");
+    assert_eq!(array("displacement"), "2.5e-1 5e-1 0 0e0 0e0 0 1e0 -5e-1 0");
     assert_eq!(array("held"), "0 0 1");
     assert_eq!(array("reaction"), "1e1 -5e0 0 0e0 0e0 0 0e0 0e0 0");
     assert_eq!(array("normal_reaction"), "1e1 0e0 0");

@@ -1,11 +1,13 @@
 //! Where the nodes of a body are, for pictures: no answer and no digest depends on it.
 //!
 //! A node has a place (x, y) and the degrees of freedom that move it along x and along y. Where one
-//! is prescribed it is none of the system's, and the node does not move that way.
+//! is prescribed it is none of the system's, and the node does not move that way, but for what the
+//! steps of a load prescribe.
 
-use super::{ModelError, System};
+use super::{LoadedBody, ModelError, System};
 use mceip_exact::{Integer, Rational};
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
 
 /// A node of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,11 +18,23 @@ pub struct BodyNode {
     pub place: [Rational; 2],
 }
 
+/// How a load step moves a node whose degrees of freedom are held.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PrescribedDisplacement {
+    /// The step, from 0.
+    pub step: usize,
+    /// The node, from 0.
+    pub node: usize,
+    /// Along x and y; 0 where the node has a degree of freedom of the system.
+    pub by: [Rational; 2],
+}
+
 /// The nodes of a body and the edges between them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Coordinates {
     nodes: Vec<BodyNode>,
     edges: Vec<[usize; 2]>,
+    prescribed: Vec<PrescribedDisplacement>,
 }
 
 impl Coordinates {
@@ -49,7 +63,95 @@ impl Coordinates {
             }
         }
 
-        Ok(Coordinates { nodes, edges })
+        Ok(Coordinates {
+            nodes,
+            edges,
+            prescribed: Vec::new(),
+        })
+    }
+
+    /// The nodes of a body under loads. Their degrees of freedom are those of the matrices as
+    /// given, held ones included; what a step prescribes for these is kept.
+    ///
+    /// # Errors
+    /// As [`Coordinates::new`].
+    pub fn under_loads(
+        mut nodes: Vec<BodyNode>,
+        edges: Vec<[usize; 2]>,
+        body: &LoadedBody,
+    ) -> Result<Coordinates, ModelError> {
+        let mut prescribed = Vec::new();
+        for (step, load) in body.steps().iter().enumerate() {
+            let of_dofs: BTreeMap<usize, &Rational> = load
+                .displacements
+                .iter()
+                .map(|(dof, by)| (*dof, by))
+                .collect();
+            for (node, placed) in nodes.iter().enumerate() {
+                let by = placed.dofs.map(|dof| {
+                    let by = dof.and_then(|dof| of_dofs.get(&dof));
+                    by.map_or_else(Rational::zero, |by| (*by).clone())
+                });
+                if by.iter().any(|component| !component.is_zero()) {
+                    prescribed.push(PrescribedDisplacement { step, node, by });
+                }
+            }
+        }
+
+        let places = body.places();
+        for (index, node) in nodes.iter_mut().enumerate() {
+            for dof in &mut node.dofs {
+                let Some(given) = *dof else { continue };
+                *dof = *places
+                    .get(given)
+                    .ok_or_else(|| out_of_range(index, given, places.len()))?;
+            }
+        }
+
+        let placed = Coordinates::new(nodes, edges, body.system())?;
+        Ok(Coordinates {
+            prescribed,
+            ..placed
+        })
+    }
+
+    /// With what the steps of a load, so many, prescribe for nodes of which the held degrees of
+    /// freedom are in no matrix.
+    ///
+    /// # Errors
+    /// [`ModelError::Coordinates`]: a step or node that there is not, one twice in a step, or one
+    /// that the system moves that way.
+    pub fn with_prescribed(
+        mut self,
+        prescribed: Vec<PrescribedDisplacement>,
+        steps: usize,
+    ) -> Result<Coordinates, ModelError> {
+        for moved in prescribed {
+            let (step, index) = (moved.step, moved.node);
+            let Some(node) = self.nodes.get(index) else {
+                let got = format!("node {index} of {} in step {step}", self.nodes.len());
+                return Err(refused("prescribed displacements of nodes from 0", got));
+            };
+
+            if step >= steps {
+                let got = format!("node {index} in step {step} of {steps}");
+                return Err(refused("prescribed displacements in steps from 0", got));
+            }
+
+            let by = node.dofs.iter().zip(&moved.by);
+            let is_free = by
+                .into_iter()
+                .any(|(dof, by)| dof.is_some() && !by.is_zero());
+            let is_known =
+                |other: &PrescribedDisplacement| (other.step, other.node) == (step, index);
+            if is_free || self.prescribed.iter().any(is_known) {
+                let expected = "prescribed displacements of a node once a step, along held axes";
+                return Err(refused(expected, format!("node {index} in step {step}")));
+            }
+            self.prescribed.push(moved);
+        }
+
+        Ok(self)
     }
 
     /// The nodes.
@@ -60,6 +162,30 @@ impl Coordinates {
     /// Pairs of nodes between which a line is drawn.
     pub fn edges(&self) -> &[[usize; 2]] {
         &self.edges
+    }
+
+    /// What the steps of a load prescribe for nodes that are held.
+    pub fn prescribed(&self) -> &[PrescribedDisplacement] {
+        &self.prescribed
+    }
+
+    /// The same where there are no loads.
+    pub fn without_loads(&self) -> Coordinates {
+        Coordinates {
+            prescribed: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// The prescribed displacement of each node with so much of each step applied.
+    pub fn prescribed_at(&self, applied: &[Rational]) -> Vec<[Rational; 2]> {
+        let mut all = vec![[Rational::zero(), Rational::zero()]; self.nodes.len()];
+        for moved in &self.prescribed {
+            for (sum, by) in all[moved.node].iter_mut().zip(&moved.by) {
+                *sum += &applied[moved.step] * by;
+            }
+        }
+        all
     }
 
     /// The node that a degree of freedom moves.
@@ -79,11 +205,7 @@ fn require_node(index: usize, node: &BodyNode, is_taken: &mut [bool]) -> Result<
                 let got = format!("{dof} a second time, for node {index}");
                 return Err(refused("each degree of freedom once", got));
             }
-            None => {
-                let expected = "degrees of freedom of the system, numbered from 0";
-                let got = format!("{dof} of {} for node {index}", is_taken.len());
-                return Err(refused(expected, got));
-            }
+            None => return Err(out_of_range(index, dof, is_taken.len())),
         }
     }
 
@@ -94,6 +216,11 @@ fn require_node(index: usize, node: &BodyNode, is_taken: &mut [bool]) -> Result<
     }
 
     Ok(())
+}
+
+fn out_of_range(node: usize, dof: usize, dofs: usize) -> ModelError {
+    let expected = "degrees of freedom of the system, numbered from 0";
+    refused(expected, format!("{dof} of {dofs} for node {node}"))
 }
 
 fn refused(expected: &'static str, got: String) -> ModelError {
@@ -168,6 +295,7 @@ mod tests {
             r#"{"nodes": [[0, 1, 0, 0]], "edges": [[0, 1]]}"#,
             r#"{"nodes": [[0, 1, 0, 0]], "edges": [[0, 0]]}"#,
             r#"{"nodes": [[0, 1, 0, 0]], "particles": ["a", "b"]}"#,
+            r#"{"nodes": [[null, null, 0, 0]], "prescribed": [[0, 0, 1, 0]]}"#,
         ] {
             let refused = read(wrong);
             let is_named = matches!(refused, Err(ModelError::Coordinates { .. }));

@@ -24,7 +24,7 @@ mod system;
 mod window;
 
 pub use canonical::sha256;
-pub use coordinates::{BodyNode, Coordinates};
+pub use coordinates::{BodyNode, Coordinates, PrescribedDisplacement};
 pub use error::{ErrorLocation, ModelError};
 pub use loaded::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
 pub use pencil::{Admissible, Pencil, Unknown};

@@ -12,7 +12,9 @@ use super::block_model::BlockModel;
 use super::error::SourceError;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::file::LoadsFile;
-use mceip_model::{ContactCandidate, ContactState, LoadStep, LoadedBody, LoadedParts};
+use mceip_model::{
+    ContactCandidate, ContactState, LoadStep, LoadedBody, LoadedParts, PrescribedDisplacement,
+};
 use mceip_path::{Contact, LoadSteps, LoadingPath, LoadingPathEnd, PathError, require_positive};
 use num_traits::Zero;
 use std::ops::ControlFlow;
@@ -145,8 +147,10 @@ impl BlockModel {
             unreachable!("a pressing and a motion");
         };
 
-        let press = block.step("press", PRESSING, &depth.clone().unwrap_or_default());
-        let motion = block.step("move", MOTION, &until.clone().unwrap_or_else(|| whole(1)));
+        let depth = depth.clone().unwrap_or_default();
+        let until_or_unit = until.clone().unwrap_or_else(|| whole(1));
+        let press = block.step("press", PRESSING, &depth);
+        let motion = block.step("move", MOTION, &until_or_unit);
         let motion = LoadStep {
             is_endless: until.is_none(),
             ..motion
@@ -174,6 +178,19 @@ impl BlockModel {
         let plane = self.plane.word();
         let force = &loading.force;
         let coordinates = self.coordinates(body.system())?;
+        let mut glued = Vec::new();
+        for (step, (along, mm)) in [(PRESSING, &depth), (MOTION, &until_or_unit)]
+            .into_iter()
+            .enumerate()
+        {
+            for (node, placed) in coordinates.nodes().iter().enumerate() {
+                if placed.dofs == [None, None] {
+                    let by = along.map(|unit| mm * whole(unit));
+                    glued.push(PrescribedDisplacement { step, node, by });
+                }
+            }
+        }
+        let coordinates = coordinates.with_prescribed(glued, body.steps().len())?;
         Ok(LoadsFile {
             name: Some(format!("block of {nx} x {ny} cells, {mesh}, plane {plane}")),
             comment: Some(format!(

@@ -3,8 +3,7 @@
 //!
 //! Input: a path, and the places of the nodes; without them there is nothing to draw. Output:
 //! pictures of the contact states, whose VTU files have displacements and reactions too. The
-//! displacements are in doubles. Nodes that are held stand where they are: their dofs are none of
-//! the body's.
+//! displacements are in doubles; those of held nodes are what the steps prescribe.
 
 use crate::cli::common::aside;
 use crate::cli::pictures::Named;
@@ -12,6 +11,7 @@ use crate::picture::{BodyDrawing, BodyUnderLoad};
 use crate::say::number_text;
 use crate::say::path::amount_text;
 use crate::{Bracket, Loads, OwnCritical};
+use mceip_exact::to_f64;
 use mceip_model::{ContactState, Coordinates, Particle};
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
 
@@ -83,8 +83,8 @@ const AT_REST: &str = "The body without load, and the contact states in the firs
 
 /// What to read off the body under load.
 const UNDER_LOAD: &str = "The contact states in this equilibrium; the body is drawn at rest. In \
-     the VTU file: displacement (0 where a node is held), reaction, normal_reaction (the force \
-     that presses).";
+     the VTU file: displacement (where a node is held, what the steps prescribe), reaction, \
+     normal_reaction (the force that presses).";
 
 /// An equilibrium that is drawn.
 struct DrawnEquilibrium<'a> {
@@ -117,12 +117,16 @@ fn under_load(
     for (place, displacement) in places.iter().zip(&displacements) {
         let particles = in_states(loads, place.at.contact_states());
         let reactions = place.at.reactions_f64();
+        let applied = path.applied_at(place.stretch, place.at);
+        let prescribed = coordinates.prescribed_at(&applied).into_iter();
+        let prescribed: Vec<_> = prescribed.map(|[x, y]| (to_f64(&x), to_f64(&y))).collect();
         let drawn = BodyDrawing {
             coordinates,
             particles: &particles,
             mode: None,
             load: Some(BodyUnderLoad {
                 displacement,
+                prescribed: &prescribed,
                 reactions: &reactions,
             }),
         };

@@ -103,10 +103,7 @@ impl RawLoads {
         let body = LoadedBody::new(system.build(steps, folder)?)?;
         let coordinates = match self.coordinates {
             None => None,
-            Some(Object(coordinates)) => {
-                let moved = coordinates.with_dofs(body.places())?;
-                Some(moved.build(body.system())?)
-            }
+            Some(Object(coordinates)) => Some(coordinates.build_under_loads(&body)?),
         };
 
         Ok(LoadsFile {
@@ -219,6 +216,11 @@ mod tests {
         // The held dof moves no node.
         let coordinates = file.coordinates.unwrap();
         assert_eq!(coordinates.nodes()[1].dofs, [None, None]);
+
+        // The second step moves it by 1/3, of which a half is applied.
+        let moved = coordinates.prescribed_at(&[whole(1), rational(1, 2)]);
+        assert_eq!(moved[0], [whole(0), whole(0)]);
+        assert_eq!(moved[1], [rational(1, 6), whole(0)]);
     }
 
     #[test]
@@ -248,6 +250,26 @@ mod tests {
             ),
             ("\"gap\": 0.1", "\"state\": \"stick\"", "state"),
             ("[2, null, 1, 0]", "[7, null, 1, 0]", "coordinates"),
+            (
+                "\"particles\": [",
+                "\"prescribed\": [[0, 2, 0, 1]], \"particles\": [",
+                "2 of 2",
+            ),
+            (
+                "\"particles\": [",
+                "\"prescribed\": [[2, 1, 0, 1]], \"particles\": [",
+                "step 2 of 2",
+            ),
+            (
+                "\"particles\": [",
+                "\"prescribed\": [[0, 0, 0, 1]], \"particles\": [",
+                "node 0 in",
+            ),
+            (
+                "\"particles\": [",
+                "\"prescribed\": [[1, 1, 1, 0]], \"particles\": [",
+                "node 1 in",
+            ),
             ("\"gap\"", "\"name\": \"toe\", \"gap\"", "one place"),
             ("[\"heel\"]", "[\"heel\", \"toe\"]", "2 names"),
             (

@@ -7,8 +7,8 @@
 use super::matrix::{RawMatrix, RawRadius};
 use super::{Number, Object, SystemFile, Word};
 use crate::{
-    Body, BodyNode, ContactState, Coordinates, ModelError, Particle, Pencil, Problem, Radii,
-    Reaction, System, Unknown, Window,
+    Body, BodyNode, ContactState, Coordinates, LoadedBody, ModelError, Particle, Pencil,
+    PrescribedDisplacement, Problem, Radii, Reaction, System, Unknown, Window,
 };
 use mceip_exact::{Rational, Sparse, whole};
 use num_traits::Zero;
@@ -75,6 +75,9 @@ pub(super) struct RawCoordinates {
     /// The names of the particles: older files have them here.
     #[serde(default)]
     particles: Vec<String>,
+    /// Of a body under loads: step, node, displacement along x and y.
+    #[serde(default)]
+    prescribed: Vec<(usize, usize, Number, Number)>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -263,24 +266,6 @@ impl RawRadii {
 }
 
 impl RawCoordinates {
-    /// With other numbers for the dofs, none for those that do not move.
-    ///
-    /// # Errors
-    /// [`ModelError::Coordinates`] for a dof without a number.
-    pub(super) fn with_dofs(mut self, places: &[Option<usize>]) -> Result<Self, ModelError> {
-        for (along_x, along_y, _, _) in &mut self.nodes {
-            for dof in [along_x, along_y] {
-                let Some(given) = *dof else { continue };
-                *dof = *places.get(given).ok_or_else(|| ModelError::Coordinates {
-                    expected: "degrees of freedom of the system",
-                    got: given.to_string(),
-                })?;
-            }
-        }
-
-        Ok(self)
-    }
-
     /// Gives the names that stand here to the particles.
     ///
     /// # Errors
@@ -315,16 +300,34 @@ impl RawCoordinates {
     }
 
     pub(super) fn build(self, system: &System) -> Result<Coordinates, ModelError> {
-        let mut nodes = Vec::with_capacity(self.nodes.len());
-        for (along_x, along_y, x, y) in self.nodes {
-            nodes.push(BodyNode {
-                dofs: [along_x, along_y],
-                place: [x.0, y.0],
+        if let Some((step, node, _, _)) = self.prescribed.first() {
+            return Err(ModelError::Coordinates {
+                expected: "prescribed displacements of a body under loads only",
+                got: format!("that of node {node} in step {step}"),
             });
         }
-
-        Coordinates::new(nodes, self.edges, system)
+        Coordinates::new(body_nodes(self.nodes), self.edges, system)
     }
+
+    pub(super) fn build_under_loads(self, body: &LoadedBody) -> Result<Coordinates, ModelError> {
+        let placed = Coordinates::under_loads(body_nodes(self.nodes), self.edges, body)?;
+        let prescribed = self.prescribed.into_iter();
+        let prescribed = prescribed.map(|(step, node, x, y)| PrescribedDisplacement {
+            step,
+            node,
+            by: [x.0, y.0],
+        });
+        placed.with_prescribed(prescribed.collect(), body.steps().len())
+    }
+}
+
+fn body_nodes(nodes: Vec<(Option<usize>, Option<usize>, Number, Number)>) -> Vec<BodyNode> {
+    let nodes = nodes.into_iter();
+    let nodes = nodes.map(|(along_x, along_y, x, y)| BodyNode {
+        dofs: [along_x, along_y],
+        place: [x.0, y.0],
+    });
+    nodes.collect()
 }
 
 /// The particles of a list, numbered in complaints.

@@ -165,6 +165,14 @@ fn write_coordinates(coordinates: &Coordinates) -> Value {
     if !coordinates.edges().is_empty() {
         out.insert("edges".into(), json!(coordinates.edges()));
     }
+    if !coordinates.prescribed().is_empty() {
+        let mut prescribed = Vec::new();
+        for moved in coordinates.prescribed() {
+            let [x, y] = moved.by.each_ref().map(Rational::to_string);
+            prescribed.push(json!([moved.step, moved.node, x, y]));
+        }
+        out.insert("prescribed".into(), json!(prescribed));
+    }
 
     Value::Object(out)
 }
