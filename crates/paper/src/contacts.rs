@@ -34,6 +34,7 @@ use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational, to_f64, whole};
 use mceip_model::{ContactCandidate, ContactState, Particle, Reaction};
 use num_traits::{One, Signed, Zero};
+use std::fmt::{self, Display, Formatter};
 
 /// Why a table of contacts is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -101,12 +102,12 @@ pub enum ContactsError {
     },
     /// A reaction contradicts (7), or the state.
     #[error(
-        "E7: contacts line {line}, state {state}: expected {expected}, got r_T = {tangential} \
+        "E7: {place}, state {state}: expected {expected}, got r_T = {tangential} \
          along the tangent, r_N = {normal} along the normal into the obstacle"
     )]
     Contradiction {
-        /// Line of the file, from 1.
-        line: usize,
+        /// Where the reaction stands.
+        place: ContactPlace,
         /// The state.
         state: &'static str,
         /// What (7) wants.
@@ -118,13 +119,13 @@ pub enum ContactsError {
     },
     /// A reaction off the friction cone, or outside of it.
     #[error(
-        "E7: contacts line {line}, state {state}: expected {expected}, that is |r_T| / |r_N| \
+        "E7: {place}, state {state}: expected {expected}, that is |r_T| / |r_N| \
          {ratio} {friction} (mu times the friction factor), got {got} (r_T = {tangential} along \
          the tangent, r_N = {normal} along the normal into the obstacle)"
     )]
     OffCone {
-        /// Line of the file, from 1.
-        line: usize,
+        /// Where the reaction stands.
+        place: ContactPlace,
         /// The state.
         state: &'static str,
         /// What (7) wants.
@@ -223,11 +224,28 @@ pub struct TableReaction {
     pub cone_ratio: Option<f64>,
 }
 
+/// Where a contact stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactPlace {
+    /// A line of a table, from 1.
+    Line(usize),
+    /// An entry of a list, from 0.
+    Entry(usize),
+}
+
+impl Display for ContactPlace {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            ContactPlace::Line(line) => write!(f, "contacts line {line}"),
+            ContactPlace::Entry(entry) => write!(f, "contact {entry}"),
+        }
+    }
+}
+
 /// Reads the table. `dof` finds the 0-based degree of freedom that a cell names (an index, or a
 /// node and direction of a `.dof` file).
 ///
-/// A reaction is held against (7) with a relative slack, for it comes from floats, and kept in the
-/// particle only where it satisfies (7) exactly.
+/// A reaction is held against (7) as [`with_reaction`] does it.
 ///
 /// # Errors
 /// [`ContactsError`] with line and column.
@@ -376,30 +394,13 @@ impl<'a> ContactRow<'a> {
     ) -> Result<(Particle, Option<TableReaction>), ContactsError> {
         let state = self.state()?;
         let particle = self.without_reaction(state, dof)?;
-        let directions = self.directions()?;
-        let own_friction = friction * &particle.friction_factor;
-
-        let mut in_particle = None;
-        let mut in_table = None;
-        if let Some(along_dofs) = self.reaction()? {
-            let given = directions.turned(&along_dofs);
-            let is_exact = given.fits(self.line, state, &own_friction)?;
-
-            in_table = Some(TableReaction {
-                cone_ratio: given.cone_ratio(&own_friction),
-                along_dofs: [along_dofs.tangential, along_dofs.normal],
-            });
-            in_particle = is_exact.then_some(Reaction {
-                tangential: given.tangential,
-                normal: given.normal,
-            });
-        }
-
-        let particle = Particle {
-            reaction: in_particle,
-            ..particle
+        let Some(along_dofs) = self.reaction()? else {
+            return Ok((particle, None));
         };
-        Ok((particle, in_table))
+
+        let place = ContactPlace::Line(self.line);
+        let (particle, reaction) = with_reaction(particle, along_dofs, friction, place)?;
+        Ok((particle, Some(reaction)))
     }
 
     /// A candidate, whose state and reaction are not known.
@@ -544,11 +545,11 @@ impl<'a> ContactRow<'a> {
     }
 
     /// Both components of the reaction, or none.
-    fn reaction(&self) -> Result<Option<GivenReaction>, ContactsError> {
+    fn reaction(&self) -> Result<Option<[Rational; 2]>, ContactsError> {
         let tangential = self.number(Column::ReactionTangential)?;
         let normal = self.number(Column::ReactionNormal)?;
         match (tangential, normal) {
-            (Some(tangential), Some(normal)) => Ok(Some(GivenReaction { tangential, normal })),
+            (Some(tangential), Some(normal)) => Ok(Some([tangential, normal])),
             (None, None) => Ok(None),
             (Some(_), None) => {
                 let expected = "a number beside reaction_tangential";
@@ -570,26 +571,40 @@ struct Directions {
     frame: Option<Frame>,
 }
 
-impl Directions {
-    /// A reaction along the dofs, along the tangent and the normal into the obstacle.
-    fn turned(&self, along_dofs: &GivenReaction) -> GivenReaction {
-        let GivenReaction { tangential, normal } = along_dofs;
-        let (tangential, normal) = match &self.frame {
-            None => (tangential.clone(), normal.clone()),
-            Some([t, n]) => (
-                &t[0] * tangential + &t[1] * normal,
-                &n[0] * tangential + &n[1] * normal,
-            ),
-        };
+/// The particle with a reaction on the body along its tangential and its normal dof, as a
+/// finite-element program gives it.
+///
+/// The reaction is held against (7) and the state with a relative slack, for it comes from floats,
+/// and kept in the particle only where it satisfies (7) exactly.
+///
+/// # Errors
+/// [`ContactsError::Contradiction`] and [`ContactsError::OffCone`]; `place` is named in them.
+pub fn with_reaction(
+    particle: Particle,
+    along_dofs: [Rational; 2],
+    friction: &Rational,
+    place: ContactPlace,
+) -> Result<(Particle, TableReaction), ContactsError> {
+    let given = GivenReaction::at(&particle, &along_dofs);
+    let own_friction = friction * &particle.friction_factor;
+    let is_exact = given.fits(place, particle.state, &own_friction)?;
 
-        GivenReaction {
-            tangential,
-            normal: normal * Rational::from_integer(self.normal_direction.into()),
-        }
-    }
+    let reaction = TableReaction {
+        cone_ratio: given.cone_ratio(&own_friction),
+        along_dofs,
+    };
+    let in_particle = is_exact.then_some(Reaction {
+        tangential: given.tangential,
+        normal: given.normal,
+    });
+    let particle = Particle {
+        reaction: in_particle,
+        ..particle
+    };
+    Ok((particle, reaction))
 }
 
-/// A reaction on the body along two directions.
+/// A reaction on the body along the tangent and the normal into the obstacle.
 struct GivenReaction {
     tangential: Rational,
     normal: Rational,
@@ -609,14 +624,30 @@ enum Fit {
 }
 
 impl GivenReaction {
+    /// That of a particle, along its dofs, turned into its directions.
+    fn at(particle: &Particle, [tangential, normal]: &[Rational; 2]) -> GivenReaction {
+        let (tangential, normal) = match &particle.frame {
+            None => (tangential.clone(), normal.clone()),
+            Some([t, n]) => (
+                &t[0] * tangential + &t[1] * normal,
+                &n[0] * tangential + &n[1] * normal,
+            ),
+        };
+
+        GivenReaction {
+            tangential,
+            normal: normal * Rational::from_integer(particle.normal_direction.into()),
+        }
+    }
+
     /// Holds the reaction along tangent and normal against (7) and the state with a relative slack;
     /// true if they hold exactly as well. `friction` is that of the particle.
     ///
     /// # Errors
-    /// [`ContactsError::Contradiction`] and [`ContactsError::OffCone`]; `line` is named in them.
+    /// [`ContactsError::Contradiction`] and [`ContactsError::OffCone`]; `place` is named in them.
     fn fits(
         &self,
-        line: usize,
+        place: ContactPlace,
         state: ContactState,
         friction: &Rational,
     ) -> Result<bool, ContactsError> {
@@ -631,14 +662,14 @@ impl GivenReaction {
             Fit::Exact => Ok(true),
             Fit::WithinSlack => Ok(false),
             Fit::Contradiction(expected) => Err(ContactsError::Contradiction {
-                line,
+                place,
                 state: state.word(),
                 expected,
                 tangential: with_seven_digits(&self.tangential),
                 normal: with_seven_digits(&self.normal),
             }),
             Fit::OffCone(expected, ratio) => Err(ContactsError::OffCone {
-                line,
+                place,
                 state: state.word(),
                 expected,
                 ratio,
@@ -777,7 +808,13 @@ mod tests {
         ] {
             let refused = read(&format!("{HEADER}{line}\n"));
             assert!(
-                matches!(refused, Err(ContactsError::Contradiction { line: 2, .. })),
+                matches!(
+                    refused,
+                    Err(ContactsError::Contradiction {
+                        place: ContactPlace::Line(2),
+                        ..
+                    })
+                ),
                 "{line}"
             );
         }
@@ -794,7 +831,13 @@ mod tests {
         ] {
             let refused = read(&format!("{header}\n{line}\n")).unwrap_err();
 
-            let is_named = matches!(refused, ContactsError::OffCone { line: 2, .. });
+            let is_named = matches!(
+                refused,
+                ContactsError::OffCone {
+                    place: ContactPlace::Line(2),
+                    ..
+                }
+            );
             assert!(is_named, "{line}: {refused}");
             let ratios = format!("|r_T| / |r_N| {relation} 1.5000 (mu times the friction factor)");
             let text = refused.to_string();

@@ -46,7 +46,10 @@ mod two_particles;
 
 pub use block::Block;
 pub use block_model::BlockModel;
-pub use contacts::{ContactTable, ContactsError, TableReaction, read_candidates, read_contacts};
+pub use contacts::{
+    ContactPlace, ContactTable, ContactsError, TableReaction, read_candidates, read_contacts,
+    with_reaction,
+};
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, PlanePoint};
 pub use error::SourceError;
