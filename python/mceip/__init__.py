@@ -38,6 +38,7 @@ from .answers import (
     Solution,
     SolutionSet,
     Stability,
+    Statement,
     Uncertified,
 )
 from .complementarity import McpPoint, McpResiduals, mcp
@@ -98,6 +99,7 @@ __all__ = [
     "Solution",
     "SolutionSet",
     "Stability",
+    "Statement",
     "Step",
     "Stretch",
     "Uncertified",

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -251,11 +251,22 @@ class Absence:
         leaves: number of leaves that prove it.
         start: the smallest friction coefficient of which this is proved, 0 for a proof of
             `analyze`.
+        of_every_member: is it proved of every body within the radii of the data? False: of the one
+            body that data without radii are.
     """
 
     below: Fraction
     leaves: int
     start: Fraction
+    of_every_member: bool
+
+    def __repr__(self) -> str:
+        # At 0 a particle may slide both ways, of which (9) has one.
+        begin = "above 0" if self.start == 0 else f"from {number_text(self.start)}"
+        return two_lines(
+            f"Absence for friction {begin} up to {number_text(self.below)}{of_members(self)}",
+            f"no solution with lambda^2 >= 0; {counted(self.leaves, 'leaf', 'leaves')} accepted",
+        )
 
 
 @dataclass(frozen=True)
@@ -266,11 +277,20 @@ class Presence:
         start: the smallest friction coefficient of which this is proved.
         end: the largest: for each in [start, end] there is a solution with lambda^2 >= 0.
         pieces: number of pieces that prove it.
+        of_every_member: is it proved of every body within the radii of the data? False: of the one
+            body that data without radii are.
     """
 
     start: Fraction
     end: Fraction
     pieces: int
+    of_every_member: bool
+
+    def __repr__(self) -> str:
+        return two_lines(
+            f"Presence for friction in {Interval(self.start, self.end)}{of_members(self)}",
+            f"a solution with lambda^2 >= 0 at each; {counted(self.pieces, 'piece')} accepted",
+        )
 
 
 @dataclass(frozen=True)
@@ -287,6 +307,23 @@ class Stability:
     start: Fraction
     end: Fraction
     of_every_motion: bool
+
+    def __repr__(self) -> str:
+        begin = "above 0" if self.start == 0 else f"from {number_text(self.start)}"
+        motions = "every motion" if self.of_every_motion else "motions that keep to the states"
+        return two_lines(
+            f"Stability for friction {begin} up to {number_text(self.end)}",
+            f"of {motions}, in contact and near the equilibrium",
+        )
+
+
+#: What an accepted certificate proves, by its kind.
+Statement = Union[Accepted, Absence, Presence, Stability]
+
+
+def of_members(statement: Absence | Presence) -> str:
+    """Of which bodies something is said."""
+    return ", of every member" if statement.of_every_member else ""
 
 
 @dataclass(frozen=True)
@@ -310,6 +347,16 @@ class Members:
     width: float | None
     costs: dict[str, float] = field(repr=False)
     obstacle: str | None
+
+    def __repr__(self) -> str:
+        absent = "none proved" if self.absent_below is None else number_text(self.absent_below)
+        present = "none proved" if self.present is None else str(Interval(*self.present))
+        middle = "" if self.middle is None else f"critical friction near {self.middle:.6g}, "
+        width = "no first order" if self.width is None else f"first order +- {self.width:.2g}"
+        return two_lines(
+            f"Members: no divergence up to {absent}, all diverge in {present}",
+            f"{middle}{width}",
+        )
 
 
 def members_of(answer: dict[str, Any]) -> Members:
@@ -341,25 +388,10 @@ class Proof:
     problem: dict[str, Any] = field(repr=False)
     certificate: Certificate = field(repr=False)
 
-    def check(self) -> Accepted | Absence | Presence | Stability:
+    def check(self) -> Statement:
         """Runs the checker once more; raises `RejectedError` where it refuses."""
         native = NativeProblem.from_json(json.dumps(self.problem))
-        text = json.dumps(self.certificate)
-
-        kind = self.certificate["format"]
-        if kind == "mceip-critical/1":
-            start, below, leaves = native.check_absence(text)
-            return Absence(fraction_of(below), leaves, fraction_of(start))
-
-        if kind == "mceip-presence/1":
-            start, end, pieces = native.check_presence(text)
-            return Presence(fraction_of(start), fraction_of(end), pieces)
-
-        if kind == "mceip-stability/1":
-            start, end, of_every_motion = native.check_stability(text)
-            return Stability(fraction_of(start), fraction_of(end), of_every_motion)
-
-        return accepted_of(json.loads(native.check(text)))
+        return statement_of(json.loads(native.check(json.dumps(self.certificate))))
 
 
 @dataclass(frozen=True)
@@ -603,6 +635,30 @@ def solution_set_of(answer: dict[str, Any]) -> SolutionSet:
 
 def certified_of(answer: dict[str, Any]) -> Certified:
     return Certified(solution_of(answer["solution"]), answer["certificate"])
+
+
+def statement_of(answer: dict[str, Any]) -> Statement:
+    """What a certificate of the kind that the answer names has proved."""
+    kind = answer["format"]
+    if kind == "mceip-critical/1":
+        return Absence(
+            fraction_of(answer["below"]),
+            answer["leaves"],
+            fraction_of(answer["start"]),
+            answer["of_every_member"],
+        )
+    if kind == "mceip-presence/1":
+        return Presence(
+            fraction_of(answer["start"]),
+            fraction_of(answer["end"]),
+            answer["pieces"],
+            answer["of_every_member"],
+        )
+    if kind == "mceip-stability/1":
+        return Stability(
+            fraction_of(answer["start"]), fraction_of(answer["end"]), answer["of_every_motion"]
+        )
+    return accepted_of(answer)
 
 
 def accepted_of(answer: dict[str, Any]) -> Accepted:

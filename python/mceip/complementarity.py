@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ._native import MceipError, solve_mcp
 from .answers import Vector, counted, two_lines
-from .inputs import Triplets
+from .inputs import Triplets, reals, require_reals
 
 
 @dataclass(frozen=True)
@@ -101,19 +101,23 @@ def mcp(
             None: by finite differences, 2n calls of F each.
         l: n lower bounds, -inf for none; or one number for all unknowns.
         u: n upper bounds, inf for none; or one number for all unknowns.
-        z0: where to start; without it at 0, or the bound nearest to it. It tells n where both
-            bounds are one number.
+        z0: where to start; without it at 0, or the bound nearest to it. Needed where both bounds
+            are one number, for it tells n.
         tolerance: on the normal map, the minimum map and the Fischer-Burmeister function, in units
             of F; 1e-10 unless given.
         check: holds J against finite differences at the start first.
 
     Raises:
-        MceipError: bounds, start or shapes make no sense; the tolerance is not positive; or, with
-            `check`, J is not the Jacobian of F: the message names row, column, expected and got.
+        MceipError: bounds, start or shapes make no sense; an entry is complex or text; the
+            tolerance is not positive; or, with `check`, J is not the Jacobian of F: the message
+            names row, column, expected and got.
     """
-    given = [vector("l", l), vector("u", u)]
+    require_functions(F, J)
+    if z0 is None and np.ndim(l) == 0 and np.ndim(u) == 0:
+        raise MceipError("z0: expected a start, for both bounds are one number, got None")
+    given = [reals("l", l), reals("u", u)]
     if z0 is not None:
-        given.append(vector("z0", z0))
+        given.append(reals("z0", z0))
     order = max(part.size for part in given)
 
     bounds = [np.full(order, part[0]) if part.size == 1 else part for part in given[:2]]
@@ -123,23 +127,25 @@ def mcp(
             raise MceipError(f"{name}: expected {order} numbers, got {part.size}")
 
     def function(z: list[float]) -> bytes:
-        values = np.asarray(F(np.array(z)), dtype=np.float64)
+        values = np.asarray(F(np.array(z)))
+        require_reals("F", values)
         if values.shape != (order,):
             raise MceipError(f"F: expected {order} numbers, got an array of shape {values.shape}")
-        return values.tobytes()
+        return values.astype(np.float64).tobytes()
 
     def jacobian(z: list[float]) -> bytes | Triplets:
         assert J is not None
         matrix = J(np.array(z))
         is_sparse = hasattr(matrix, "tocoo")
         if not is_sparse:
-            matrix = np.asarray(matrix, dtype=np.float64)
+            matrix = np.asarray(matrix)
         if matrix.shape != (order, order):
             raise MceipError(
                 f"J: expected {order} rows and columns, got a matrix of shape {matrix.shape}"
             )
+        require_reals("J", matrix)
         if not is_sparse:
-            return np.asfortranarray(matrix).tobytes(order="F")
+            return np.asfortranarray(matrix, dtype=np.float64).tobytes(order="F")
 
         entries = matrix.tocoo()
         values = np.asarray(entries.data, dtype=np.float64)
@@ -151,20 +157,17 @@ def mcp(
         bounds[0].tolist(),
         bounds[1].tolist(),
         start.tolist(),
-        tolerance,
-        check,
+        None if tolerance is None else float(reals("tolerance", [tolerance])[0]),
+        bool(check),
     )
     return McpPoint(
         np.array(point), np.array(f), McpResiduals(*residuals), converged, reason, *counts
     )
 
 
-def vector(name: str, values: npt.ArrayLike) -> Vector:
-    """One number or some, as an array of doubles."""
-    try:
-        array = np.atleast_1d(np.asarray(values, dtype=np.float64))
-    except (TypeError, ValueError) as error:
-        raise MceipError(f"{name}: expected numbers: {error}") from None
-    if array.ndim != 1:
-        raise MceipError(f"{name}: expected a list of numbers, got an array of shape {array.shape}")
-    return array
+def require_functions(F: Any, J: Any) -> None:
+    """Refuses a matrix or a number in the place of a function."""
+    for name, function in (("F", F), ("J", J)):
+        if not callable(function) and not (name == "J" and function is None):
+            kind = type(function).__name__
+            raise MceipError(f"{name}: expected a function of an array, got {kind}")

@@ -45,6 +45,11 @@ class Contact:
             freedom. A rotation in doubles becomes the nearest simple rational one.
         friction_factor: the coefficient of friction of this particle over the common one, > 0.
         name: by which answers call it; without one it is called by its number.
+        reaction_tangential: reaction of the obstacle on the body along the tangential degree of
+            freedom, as a finite-element program gives it; it is held against (7).
+        reaction_normal: the same along the normal degree of freedom; give both.
+        friction_factor_range: between which numbers `friction_factor` is known to lie
+            (spec/robust.md); none: it is exact.
     """
 
     tangential: int
@@ -55,6 +60,9 @@ class Contact:
     frame: Sequence[Sequence[Number]] | None = None
     friction_factor: Number = 1
     name: str | None = None
+    reaction_tangential: Number | None = None
+    reaction_normal: Number | None = None
+    friction_factor_range: Sequence[Number] | None = None
 
 
 #: A list of `Contact`, or a table: a path to a CSV file, a pandas DataFrame, a mapping of columns,
@@ -76,10 +84,10 @@ def spelt(number: Any, name: str | None = None) -> str:
     try:
         return str(Fraction(number))
     except (TypeError, ValueError, OverflowError):
-        # Not the number itself: Python refuses to spell a long one.
-        kind = type(number).__name__
+        # Not a long integer itself: Python refuses to spell it.
+        got = repr(number) if isinstance(number, float) else type(number).__name__
         raise MceipError(
-            f"{which}expected a finite number of at most 4300 digits, got {kind}"
+            f"{which}expected a finite number of at most 4300 digits, got {got}"
         ) from None
 
 
@@ -119,7 +127,9 @@ def require_square(name: str, shape: tuple[int, ...], order: int | None) -> None
     expected = "n x n" if order is None else f"{order} x {order}"
     is_square = len(shape) == 2 and shape[0] == shape[1]
     if not is_square or order not in (None, shape[0]):
-        raise MceipError(f"{name}: expected a matrix of shape {expected}, got {shape}")
+        is_list = len(shape) == 1
+        remedy = " (scipy.sparse.diags makes a diagonal matrix of a list)" if is_list else ""
+        raise MceipError(f"{name}: expected a matrix of shape {expected}, got {shape}{remedy}")
 
 
 def doubles(name: str, values: npt.NDArray[Any]) -> list[float]:
@@ -147,7 +157,7 @@ def doubles(name: str, values: npt.NDArray[Any]) -> list[float]:
 def contacts_or_table(contacts: Contacts) -> list[Contact] | str:
     """Contacts as the Rust part takes them: a list, or the text of a table."""
     if isinstance(contacts, (str, os.PathLike)):
-        return text_of_file(contacts)
+        return text_of_file("contacts", contacts)
     if hasattr(contacts, "to_dict"):
         return table_of_columns(contacts.to_dict(orient="list"))
     if isinstance(contacts, Mapping):
@@ -160,18 +170,21 @@ def contacts_or_table(contacts: Contacts) -> list[Contact] | str:
     if entries and all(isinstance(entry, Mapping) for entry in entries):
         names = list(dict.fromkeys(name for entry in entries for name in entry))
         return table(names, [[entry.get(name) for name in names] for entry in entries])
-    if not all(isinstance(entry, Contact) for entry in entries):
-        raise MceipError("contacts: expected a list of mceip.Contact or a table, got a mixture")
+    for place, entry in enumerate(entries):
+        if not isinstance(entry, Contact):
+            raise MceipError(
+                f"contacts: expected a list of mceip.Contact or a table, got {entry!r} at {place}"
+            )
     return [plain_contact(f"contact {place}", entry) for place, entry in enumerate(entries)]
 
 
-def text_of_file(path: str | os.PathLike[str]) -> str:
-    """A table in a file."""
+def text_of_file(name: str, path: str | os.PathLike[str]) -> str:
+    """What a file holds."""
     try:
         with open(path, encoding="utf-8") as file:
             return file.read()
     except (OSError, UnicodeDecodeError) as error:
-        raise MceipError(f"contacts: {os.fspath(path)}: {error}") from None
+        raise MceipError(f"{name}: {os.fspath(path)}: {error}") from None
 
 
 def table_of_columns(columns: Mapping[str, Any]) -> str:
@@ -218,6 +231,13 @@ def plain_contact(name: str, contact: Contact) -> Contact:
         if sign not in (1, -1, None):
             raise MceipError(f"{name}: expected sign and normal_direction 1 or -1, got {sign!r}")
 
+    along_dofs = [
+        None if component is None else spelt(component, f"{name}: {which}")
+        for which, component in (
+            ("reaction_tangential", contact.reaction_tangential),
+            ("reaction_normal", contact.reaction_normal),
+        )
+    ]
     return Contact(
         tangential=count(f"{name}: tangential", contact.tangential),
         normal=count(f"{name}: normal", contact.normal),
@@ -225,9 +245,22 @@ def plain_contact(name: str, contact: Contact) -> Contact:
         sign=None if contact.sign is None else int(contact.sign),
         normal_direction=int(contact.normal_direction),
         frame=None if contact.frame is None else spelt_frame(name, contact.frame),
-        friction_factor=spelt(contact.friction_factor),
+        friction_factor=spelt(contact.friction_factor, f"{name}: friction_factor"),
         name=None if contact.name is None else str(contact.name),
+        reaction_tangential=along_dofs[0],
+        reaction_normal=along_dofs[1],
+        friction_factor_range=spelt_range(name, contact.friction_factor_range),
     )
+
+
+def spelt_range(name: str, ends: Sequence[Number] | None) -> list[str] | None:
+    """The ends of an interval as text."""
+    if ends is None:
+        return None
+    name = f"{name}: friction_factor_range"
+    if isinstance(ends, str) or not isinstance(ends, Iterable) or len(list(ends)) != 2:
+        raise MceipError(f"{name}: expected two numbers, got {ends!r}")
+    return [spelt(end, name) for end in ends]
 
 
 def spelt_frame(name: str, frame: Sequence[Sequence[Number]]) -> list[list[str]]:
@@ -239,6 +272,36 @@ def spelt_frame(name: str, frame: Sequence[Sequence[Number]]) -> list[list[str]]
     if [len(row) for row in rows] != [2, 2]:
         raise MceipError(f"{name}: expected a frame of 2 x 2 numbers, got {frame!r}")
     return rows
+
+
+def reals(name: str, values: Any) -> npt.NDArray[np.float64]:
+    """One number or some, as a list of doubles; text and complex numbers are refused."""
+    try:
+        array = np.atleast_1d(np.asarray(values))
+        require_reals(name, array)
+        if any(entry is None for entry in array.flat):
+            raise MceipError(f"{name}: expected numbers, got None")
+        array = array.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, MceipError):
+            raise
+        raise MceipError(f"{name}: expected numbers: {error}") from None
+    if array.ndim != 1:
+        raise MceipError(f"{name}: expected a list of numbers, got an array of shape {array.shape}")
+    return array
+
+
+def require_reals(name: str, values: npt.NDArray[Any]) -> None:
+    """Refuses entries that are text or complex."""
+    if values.dtype.kind not in "biufO":
+        raise MceipError(f"{name}: expected real numbers, got entries of type {values.dtype}")
+
+
+def counts(name: str, values: Any) -> list[int]:
+    """A list of integers >= 0."""
+    if not isinstance(values, Iterable):
+        raise MceipError(f"{name}: expected a list of integers, got {values!r}")
+    return [count(name, value) for value in values]
 
 
 def count(name: str, value: Any, least: int = 0, most: int = 2**63 - 1) -> int:

@@ -7,7 +7,8 @@ slip and open, exactly; each of its stretches has the problem in its contact sta
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+import os
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Union
@@ -16,9 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import MceipError, NativeLoadPath, NativeLoads
-from .answers import Analysis, counted, indices, two_lines
+from .answers import Analysis, Certificate, counted, indices, two_lines
 from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text
-from .inputs import Contact, Number, Triplets, count, plain_contact, spelt, triplets
+from .inputs import Contact, Number, Triplets, count, counts, plain_contact, spelt, triplets
 from .mesh import Mesh
 from .problem import Problem, text_of, warn_of
 from .progress import Progress, listening
@@ -96,9 +97,14 @@ class Body:
         self._mass: Triplets | None = None
         if mass is not None:
             _, self._mass = triplets("mass", mass, self._dofs)
+        if isinstance(candidates, Candidate) or not isinstance(candidates, Iterable):
+            raise MceipError(f"candidates: expected a list of mceip.Candidate, got {candidates!r}")
+        candidates = list(candidates)
         self._candidates = [contact_of(k, candidate) for k, candidate in enumerate(candidates)]
-        self._gaps = [spelt(candidate.gap) for candidate in candidates]
-        self._held = [count("held", dof) for dof in held]
+        self._gaps = [
+            spelt(candidate.gap, f"candidate {k}: gap") for k, candidate in enumerate(candidates)
+        ]
+        self._held = counts("held", held)
         self._mesh = None if mesh is None else mesh._plain()
 
     def path(
@@ -180,7 +186,7 @@ class LoadPath:
             found, text = self._native.analyze(listener)
         return PathAnalysis([held_state_of(state) for state in json.loads(found)], text)
 
-    def check(self, certificate: str) -> CertifiedEquilibrium:
+    def check(self, certificate: Certificate | str | os.PathLike[str]) -> CertifiedEquilibrium:
         """What a certificate of `Stretch.certify` proves of this body; raises `RejectedError` where
         it proves nothing."""
         friction, amounts, states = self._native.check(text_of(certificate))
@@ -485,11 +491,12 @@ def forces(name: str, load: Load, dofs: int) -> list[tuple[int, str]]:
     if numbers.shape != (dofs,):
         shape = numbers.shape
         raise MceipError(f"{name}: expected {dofs} numbers or a mapping, got shape {shape}")
-    return [(dof, spelt(value)) for dof, value in enumerate(numbers.tolist()) if value != 0]
+    given = enumerate(numbers.tolist())
+    return [(dof, spelt(value, f"{name}: {dof}")) for dof, value in given if value != 0]
 
 
 def by_dof(name: str, given: Mapping[int, Number]) -> list[tuple[int, str]]:
     """Values by degree of freedom."""
     if not isinstance(given, Mapping):
         raise MceipError(f"{name}: expected a mapping from degrees of freedom, got {given!r}")
-    return [(count(name, dof), spelt(value)) for dof, value in given.items()]
+    return [(count(name, dof), spelt(value, f"{name}: {dof}")) for dof, value in given.items()]

@@ -5,26 +5,37 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from typing import Any
 
 from ._native import MceipError, NativeProblem
 from .answers import (
-    Accepted,
     Analysis,
     Certificate,
     Certified,
     Found,
     SolutionSet,
-    accepted_of,
+    Statement,
     analysis_of,
     certified_of,
     found_of,
     solution_set_of,
+    statement_of,
     two_lines,
 )
-from .inputs import Contacts, Number, contacts_or_table, count, spelt, triplets
+from .inputs import (
+    Contacts,
+    Number,
+    Triplets,
+    contacts_or_table,
+    count,
+    counts,
+    reals,
+    spelt,
+    text_of_file,
+    triplets,
+)
 from .progress import Progress, listening
 
 #: Threads at most: each is one of the operating system.
@@ -65,9 +76,11 @@ class Problem:
         return cls(native)
 
     @classmethod
-    def from_json(cls, text: str) -> Problem:
-        """The text of a problem file. Its numbers may have any number of digits."""
-        return cls(NativeProblem.from_json(text))
+    def from_json(cls, text: str | Mapping[str, Any]) -> Problem:
+        """A problem file as text, or as the JSON object that it holds, such as `Proof.problem`. Its
+        numbers may have any number of digits."""
+        spelt_out = text if isinstance(text, str) else json_of("text", text)
+        return cls(NativeProblem.from_json(spelt_out))
 
     @classmethod
     def from_matrices(
@@ -77,6 +90,8 @@ class Problem:
         friction: Number,
         contacts: Contacts,
         *,
+        stiffness_radius: Any = None,
+        mass_radius: Any = None,
         accept_warnings: bool = False,
     ) -> Problem:
         """Growth rates of a mechanical system with N degrees of freedom, (12)-(14).
@@ -93,12 +108,20 @@ class Problem:
                 `normal_y`, `friction_factor`, `reaction_tangential`, `reaction_normal`
                 (spec/tutorial.md): a path to a CSV file, a pandas DataFrame, a mapping of columns,
                 or a list of rows as mappings. Reactions are held against (7).
+            stiffness_radius: R_K, N x N, symmetric, >= 0: how far each entry of K may be off, such
+                as `0.001 * abs(K)`. With it, or a `friction_factor_range` of a contact, the problem
+                is that of every body within (spec/robust.md), for `analyze` alone.
+            mass_radius: the same of M.
             accept_warnings: neither says nor keeps what looks wrong.
         """
         dofs, k = triplets("stiffness", stiffness)
         _, m = triplets("mass", mass, dofs)
         given = contacts_or_table(contacts)
-        native = NativeProblem.lambda2(dofs, k, m, spelt(friction, "friction"), given)
+        radii = (
+            radius_triplets("stiffness_radius", stiffness_radius, dofs),
+            radius_triplets("mass_radius", mass_radius, dofs),
+        )
+        native = NativeProblem.lambda2(dofs, k, m, spelt(friction, "friction"), given, radii)
         if accept_warnings:
             return cls(native.without_warnings())
         warn_of(native.warnings())
@@ -128,8 +151,7 @@ class Problem:
         """
         order, a_entries = triplets("a", a)
         _, b_entries = triplets("b", b, order)
-        indices = [count("free", index) for index in free]
-        return cls(NativeProblem.pencil(order, a_entries, b_entries, indices, unknown))
+        return cls(NativeProblem.pencil(order, a_entries, b_entries, counts("free", free), unknown))
 
     def in_window(self, min: Number, max: Number | None = None) -> Problem:
         """The same problem with the values sought in [min, max], or from min on."""
@@ -201,6 +223,11 @@ class Problem:
             progress: see the class; with an executor the steps are parts.
         """
         if executor is not None:
+            if not hasattr(executor, "submit"):
+                raise MceipError(
+                    "executor: expected one of concurrent.futures, such as ProcessPoolExecutor(), "
+                    f"got {executor!r}"
+                )
             if resume is not None:
                 raise MceipError("resume: expected None with an executor, got a certificate")
             return self._complete_by(executor, count("parts", parts, 1, MOST_PARTS), threads, progress)
@@ -267,13 +294,18 @@ class Problem:
             value: lambda^2 or mu.
             x: over the variables of the pencil, in any positive scale.
         """
-        answer = self._native.certify(float(value), [float(entry) for entry in x])
-        return certified_of(json.loads(answer))
+        (number,), components = reals("value", [value]), reals("x", x)
+        return certified_of(json.loads(self._native.certify(number, components.tolist())))
 
-    def check(self, certificate: Certificate | str) -> Accepted:
-        """What a certificate proves; raises `RejectedError` where it proves nothing. One of contact
-        states under loads is for `LoadPath.check`."""
-        return accepted_of(json.loads(self._native.check(text_of(certificate))))
+    def check(self, certificate: Certificate | str | os.PathLike[str]) -> Statement:
+        """What a certificate proves, of solutions, absence, presence or stability; raises
+        `RejectedError` where it proves nothing. One of contact states under loads is for
+        `LoadPath.check`.
+
+        Args:
+            certificate: a JSON object, its text, or a `pathlib.Path` to its file.
+        """
+        return statement_of(json.loads(self._native.check(text_of(certificate))))
 
     def __reduce__(self) -> tuple[Any, tuple[str]]:
         # Pickled as its file, so that processes can be handed problems.
@@ -292,12 +324,20 @@ def part_of(problem: str, index: int, parts: int, threads: int | None) -> str:
     return json.dumps(found["certificate"])
 
 
-def check(problem: Problem, certificate: Certificate | str) -> Accepted:
+def check(problem: Problem, certificate: Certificate | str | os.PathLike[str]) -> Statement:
     """What a certificate proves of a problem; raises `RejectedError` where it proves nothing.
 
     Exact arithmetic decides. Whoever made the certificate, and however: an accepted one is a proof.
     """
+    if not isinstance(problem, Problem):
+        kind = type(problem).__name__
+        raise MceipError(f"problem: expected mceip.Problem (Problem.read reads a file), got {kind}")
     return problem.check(certificate)
+
+
+def radius_triplets(name: str, radius: Any, dofs: int) -> Triplets | None:
+    """The entries of a radius, if one is given."""
+    return None if radius is None else triplets(name, radius, dofs)[1]
 
 
 def warn_of(sentences: Sequence[str]) -> None:
@@ -306,14 +346,29 @@ def warn_of(sentences: Sequence[str]) -> None:
         warnings.warn(sentence, ModelWarning, stacklevel=3)
 
 
-def text_of(certificate: Certificate | str) -> str:
+def text_of(certificate: Certificate | str | os.PathLike[str]) -> str:
     """The text of a certificate."""
+    if isinstance(certificate, os.PathLike):
+        return text_of_file("certificate", certificate)
+    if hasattr(certificate, "certificate"):
+        kind = type(certificate).__name__
+        raise MceipError(f"certificate: expected the `certificate` of a {kind}, got all of it")
     if isinstance(certificate, str):
+        if not certificate.lstrip().startswith("{"):
+            raise MceipError(
+                "certificate: expected the text of a JSON object, or a pathlib.Path to its file, "
+                f"got {certificate[:40]!r}"
+            )
         return certificate
+    return json_of("certificate", certificate)
+
+
+def json_of(name: str, document: Any) -> str:
+    """The text of a JSON object."""
     try:
-        return json.dumps(certificate)
+        return json.dumps(document)
     except (TypeError, ValueError, RecursionError) as error:
-        raise MceipError(f"certificate: expected a JSON object: {error}") from None
+        raise MceipError(f"{name}: expected a JSON object: {error}") from None
 
 
 def thread_count(threads: int | None) -> int | None:

@@ -6,6 +6,10 @@ use mceip::{
     Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, ModelError,
     OpenRegion, Solution, SolutionFamily, SolutionSet, Uncertified,
 };
+use mceip_check::certificate::{
+    CERTIFICATE_FORMAT, CRITICAL_FORMAT, PRESENCE_FORMAT, STABILITY_FORMAT,
+};
+use mceip_check::{AcceptedAbsence, AcceptedPresence, AcceptedStability};
 use serde_json::{Value, json};
 
 pub(crate) fn found(found: &Found) -> Value {
@@ -72,7 +76,36 @@ pub(crate) fn accepted(accepted: &Accepted) -> Value {
         })
     });
 
-    json!({ "claims": claims, "complete_set": cover })
+    json!({ "format": CERTIFICATE_FORMAT, "claims": claims, "complete_set": cover })
+}
+
+pub(crate) fn absence(accepted: &AcceptedAbsence) -> Value {
+    json!({
+        "format": CRITICAL_FORMAT,
+        "below": accepted.below.to_string(),
+        "leaves": accepted.leaves,
+        "start": accepted.from.to_string(),
+        "of_every_member": accepted.is_of_every_member,
+    })
+}
+
+pub(crate) fn presence(accepted: &AcceptedPresence) -> Value {
+    json!({
+        "format": PRESENCE_FORMAT,
+        "start": accepted.from.to_string(),
+        "end": accepted.to.to_string(),
+        "pieces": accepted.pieces,
+        "of_every_member": accepted.is_of_every_member,
+    })
+}
+
+pub(crate) fn stability(accepted: &AcceptedStability) -> Value {
+    json!({
+        "format": STABILITY_FORMAT,
+        "start": accepted.from.to_string(),
+        "end": accepted.to.to_string(),
+        "of_every_motion": accepted.is_of_every_motion,
+    })
 }
 
 fn solutions(list: &[Solution]) -> Vec<Value> {

@@ -3,7 +3,7 @@
 use crate::MceipError;
 use crate::number;
 use mceip::{ContactState, Particle, Rational};
-use mceip_paper::{ContactTable, make_frames_exact, read_contacts};
+use mceip_paper::{ContactPlace, ContactTable, make_frames_exact, read_contacts, with_reaction};
 use pyo3::prelude::*;
 
 /// The contacts of a mechanical system.
@@ -26,6 +26,9 @@ pub(crate) struct Contact {
     frame: Option<[[String; 2]; 2]>,
     friction_factor: String,
     name: Option<String>,
+    reaction_tangential: Option<String>,
+    reaction_normal: Option<String>,
+    friction_factor_range: Option<[String; 2]>,
 }
 
 impl Contacts {
@@ -34,38 +37,69 @@ impl Contacts {
     pub(crate) fn table(self, dofs: usize, friction: Option<&Rational>) -> PyResult<ContactTable> {
         match self {
             Contacts::Table(text) => of_table(&text, dofs, friction),
-            Contacts::List(contacts) => of_list(contacts),
+            Contacts::List(contacts) => of_list(contacts, friction),
         }
     }
 }
 
-fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<ContactTable> {
-    let frictionless = Rational::from_integer(0.into());
-    let friction = match friction {
-        Some(friction) => friction,
-        None if text.contains("reaction_") => {
-            return Err(MceipError::new_err(
-                "contacts: expected a table without reactions where no friction is given, for \
-                 they are held against it, got one with reactions",
-            ));
-        }
-        None => &frictionless,
-    };
+/// Reactions are held against the friction, so that there is one.
+fn require_friction(friction: Option<&Rational>, has_reactions: bool) -> PyResult<Rational> {
+    match friction {
+        Some(friction) => Ok(friction.clone()),
+        None if has_reactions => Err(MceipError::new_err(
+            "contacts: expected no reactions where no friction is given, for they are held \
+             against it, got some",
+        )),
+        None => Ok(Rational::from_integer(0.into())),
+    }
+}
 
+fn of_table(text: &str, dofs: usize, friction: Option<&Rational>) -> PyResult<ContactTable> {
+    let friction = require_friction(friction, text.contains("reaction_"))?;
     let dof = |name: &str| name.parse().ok().filter(|dof| *dof < dofs);
-    let table = read_contacts(text, friction, &dof);
+    let table = read_contacts(text, &friction, &dof);
     table.map_err(|e| MceipError::new_err(e.to_string()))
 }
 
-fn of_list(contacts: Vec<Contact>) -> PyResult<ContactTable> {
+fn of_list(contacts: Vec<Contact>, friction: Option<&Rational>) -> PyResult<ContactTable> {
+    let given = contacts.iter().enumerate().map(reaction);
+    let given: Vec<Option<[Rational; 2]>> = given.collect::<PyResult<_>>()?;
+    let friction = require_friction(friction, given.iter().any(Option::is_some))?;
     let particles = contacts.into_iter().enumerate().map(of_entry);
     let mut particles: Vec<Particle> = particles.collect::<PyResult<_>>()?;
     make_frames_exact(&mut particles);
 
+    let mut reactions = vec![None; particles.len()];
+    for (index, along_dofs) in given.into_iter().enumerate() {
+        let Some(along_dofs) = along_dofs else {
+            continue;
+        };
+        let place = ContactPlace::Entry(index);
+        let held = with_reaction(particles[index].clone(), along_dofs, &friction, place);
+        let (particle, reaction) = held.map_err(|e| MceipError::new_err(e.to_string()))?;
+        particles[index] = particle;
+        reactions[index] = Some(reaction);
+    }
+
     Ok(ContactTable {
-        reactions: vec![None; particles.len()],
         particles,
+        reactions,
     })
+}
+
+/// Both components of the reaction, or none.
+fn reaction((index, contact): (usize, &Contact)) -> PyResult<Option<[Rational; 2]>> {
+    match (&contact.reaction_tangential, &contact.reaction_normal) {
+        (Some(tangential), Some(normal)) => Ok(Some([
+            number("reaction_tangential", tangential)?,
+            number("reaction_normal", normal)?,
+        ])),
+        (None, None) => Ok(None),
+        _ => Err(MceipError::new_err(format!(
+            "contact {index}: expected both reaction_tangential and reaction_normal, or none, \
+             got one"
+        ))),
+    }
 }
 
 fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {
@@ -90,6 +124,10 @@ fn of_entry((index, contact): (usize, Contact)) -> PyResult<Particle> {
     particle.name = contact.name.filter(|name| !name.is_empty());
     particle.normal_direction = contact.normal_direction;
     particle.friction_factor = number("friction_factor", &contact.friction_factor)?;
+    if let Some([least, greatest]) = contact.friction_factor_range {
+        let end = |text: &str| number("friction_factor_range", text);
+        particle.friction_factor_range = Some([end(&least)?, end(&greatest)?]);
+    }
     if let Some([[a, b], [c, d]]) = contact.frame {
         let entry = |text: &str| number("frame", text);
         particle.frame = Some([[entry(&a)?, entry(&b)?], [entry(&c)?, entry(&d)?]]);

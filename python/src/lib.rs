@@ -13,14 +13,17 @@ mod loads;
 mod watched;
 
 use contact::Contacts;
-use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown, check};
-use mceip_check::certificate::{CriticalCertificate, PresenceCertificate, StabilityCertificate};
-use mceip_check::{check_critical, check_presence, check_stability};
-use mceip_model::{Body, Coordinates, System};
-use mceip_paper::{ContactTable, Plausibility, PlausibilityInput};
+use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown};
+use mceip_check::Provable;
+use mceip_check::certificate::{
+    CRITICAL_FORMAT, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate, STABILITY_FORMAT,
+    StabilityCertificate,
+};
+use mceip_model::file::require_format;
+use mceip_model::{Body, Radii, Window};
+use mceip_paper::{Asymmetry, Plausibility, PlausibilityInput, asymmetry, rows_alone};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use std::collections::HashMap;
 use std::path::PathBuf;
 use watched::watched;
 
@@ -64,7 +67,8 @@ impl NativeProblem {
         made(py.detach(|| Problem::from_json(text)))
     }
 
-    /// MCEIP-lambda2 of a mechanical system with `dofs` degrees of freedom.
+    /// MCEIP-lambda2 of a mechanical system with `dofs` degrees of freedom; `radii` are those of K
+    /// and M.
     #[staticmethod]
     fn lambda2(
         py: Python<'_>,
@@ -73,11 +77,20 @@ impl NativeProblem {
         mass: Triplets,
         friction: &str,
         contacts: Contacts,
+        radii: (Option<Triplets>, Option<Triplets>),
     ) -> PyResult<NativeProblem> {
-        let stiffness = matrix(dofs, stiffness)?;
-        let mass = matrix(dofs, mass)?;
+        let stiffness = symmetric("stiffness", dofs, stiffness)?;
+        let mass = symmetric("mass", dofs, mass)?;
         let friction = number("friction", friction)?;
         let table = contacts.table(dofs, Some(&friction))?;
+        let radius = |name, triplets: Option<Triplets>| {
+            let radius = triplets.map(|triplets| matrix(name, dofs, triplets));
+            Ok::<_, PyErr>(radius.transpose()?.map(Matrix::into_exact))
+        };
+        let radii = Radii {
+            stiffness: radius("stiffness_radius", radii.0)?,
+            mass: radius("mass_radius", radii.1)?,
+        };
 
         made(py.detach(|| {
             let particles = table.particles.clone();
@@ -85,8 +98,20 @@ impl NativeProblem {
             let Body::System(system) = problem.as_model().body() else {
                 return Ok(problem);
             };
-            let warnings = warnings(system, &table, None, None);
-            Ok(problem.with_warnings(warnings))
+            let system = system.clone().with_radii(radii)?;
+            let looked_at = Plausibility::new(&PlausibilityInput {
+                system: &system,
+                rows_alone: &rows_alone(system.stiffness()),
+                places: None,
+                reactions: &table.reactions,
+                asks_for_reactions: true,
+                displacements: None,
+                coordinates: None,
+                dof_names: None,
+            });
+            let body = Body::System(system);
+            let problem = mceip_model::Problem::new(body, Unknown::Lambda2, Window::all())?;
+            Ok(Problem::from(problem).with_warnings(looked_at.warnings))
         }))
     }
 
@@ -98,7 +123,7 @@ impl NativeProblem {
         stiffness: Triplets,
         contacts: Contacts,
     ) -> PyResult<NativeProblem> {
-        let stiffness = matrix(dofs, stiffness)?;
+        let stiffness = symmetric("stiffness", dofs, stiffness)?;
         let table = contacts.table(dofs, None)?;
 
         made(py.detach(|| Problem::friction_threshold(stiffness, table.particles)))
@@ -123,8 +148,8 @@ impl NativeProblem {
         };
 
         made(Problem::from_pencil(
-            matrix(order, a)?,
-            matrix(order, b)?,
+            matrix("a", order, a)?,
+            matrix("b", order, b)?,
             free,
             unknown,
         ))
@@ -264,73 +289,34 @@ impl NativeProblem {
         Ok(answers::certified(&certified.map_err(refused)?).to_string())
     }
 
-    /// The verdict of the checker on `mceip-certificate/1`.
+    /// The verdict of the checker on a certificate about this problem, whatever its kind.
     fn check(&self, py: Python<'_>, text: &str) -> PyResult<String> {
-        let certificate = certificate(text)?;
-        let verdict = py.detach(|| check(&self.0, &certificate));
-        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
-        Ok(answers::accepted(&accepted).to_string())
-    }
+        let is = |format| require_format(text, format).is_ok();
 
-    /// The verdict of the checker on `mceip-critical/1`: the smallest and the largest friction
-    /// coefficient of which absence is proved, and the number of leaves that prove it.
-    fn check_absence(&self, py: Python<'_>, text: &str) -> PyResult<(String, String, usize)> {
-        let read = CriticalCertificate::from_json(text);
-        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
-
-        let verdict = py.detach(|| check_critical(self.0.as_model(), &certificate));
-        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
-        let from = accepted.from.to_string();
-        let below = accepted.below.to_string();
-        Ok((from, below, accepted.leaves))
-    }
-
-    /// The verdict of the checker on `mceip-presence/1`: the smallest and the largest friction
-    /// coefficient of which presence is proved, and the number of pieces that prove it.
-    fn check_presence(&self, py: Python<'_>, text: &str) -> PyResult<(String, String, usize)> {
-        let read = PresenceCertificate::from_json(text);
-        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
-
-        let verdict = py.detach(|| check_presence(self.0.as_model(), &certificate));
-        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
-        let from = accepted.from.to_string();
-        let to = accepted.to.to_string();
-        Ok((from, to, accepted.pieces))
-    }
-
-    /// The verdict of the checker on `mceip-stability/1`: the smallest and the largest friction
-    /// coefficient of which stability is proved, and whether of every motion.
-    fn check_stability(&self, py: Python<'_>, text: &str) -> PyResult<(String, String, bool)> {
-        let read = StabilityCertificate::from_json(text);
-        let certificate = read.map_err(|e| MceipError::new_err(e.to_string()))?;
-
-        let verdict = py.detach(|| check_stability(self.0.as_model(), &certificate));
-        let accepted = verdict.map_err(|rejected| rejection(&rejected))?;
-        let from = accepted.from.to_string();
-        let to = accepted.to.to_string();
-        Ok((from, to, accepted.is_of_every_motion))
+        let accepted = if is(CRITICAL_FORMAT) {
+            answers::absence(&self.accepted::<CriticalCertificate>(py, text)?)
+        } else if is(PRESENCE_FORMAT) {
+            answers::presence(&self.accepted::<PresenceCertificate>(py, text)?)
+        } else if is(STABILITY_FORMAT) {
+            answers::stability(&self.accepted::<StabilityCertificate>(py, text)?)
+        } else {
+            answers::accepted(&self.accepted::<Certificate>(py, text)?)
+        };
+        Ok(accepted.to_string())
     }
 }
 
-/// What `mceip convert` warns of in such a model.
-pub(crate) fn warnings(
-    system: &System,
-    table: &ContactTable,
-    dof_names: Option<&HashMap<String, usize>>,
-    coordinates: Option<&Coordinates>,
-) -> Vec<String> {
-    let plausibility = Plausibility::new(&PlausibilityInput {
-        system,
-        // K may be that of a body without the dofs that are held, whose rows say nothing.
-        rows_alone: &[],
-        places: None,
-        reactions: &table.reactions,
-        asks_for_reactions: false,
-        displacements: None,
-        coordinates,
-        dof_names,
-    });
-    plausibility.warnings
+impl NativeProblem {
+    /// What an accepted certificate of this kind has proved.
+    fn accepted<C>(&self, py: Python<'_>, text: &str) -> PyResult<C::Accepted>
+    where
+        C: Provable<Subject = mceip_model::Problem> + Sync,
+        C::Accepted: Send,
+    {
+        let certificate = C::read(text).map_err(|e| MceipError::new_err(e.to_string()))?;
+        let verdict = py.detach(|| certificate.check(self.0.as_model()));
+        verdict.map_err(|rejected| rejection(&rejected))
+    }
 }
 
 /// A problem of the front door as Python holds it.
@@ -338,10 +324,24 @@ fn made(problem: Result<Problem, Error>) -> PyResult<NativeProblem> {
     problem.map(NativeProblem).map_err(refused)
 }
 
-fn matrix(order: usize, (rows, columns, values): Triplets) -> PyResult<Matrix> {
+/// A matrix; what is refused begins with its name.
+fn matrix(name: &str, order: usize, (rows, columns, values): Triplets) -> PyResult<Matrix> {
     let places = rows.into_iter().zip(columns);
     let entries = places.zip(values).map(|((i, j), value)| (i, j, value));
-    Matrix::from_triplets(order, order, entries).map_err(refused)
+    let made = Matrix::from_triplets(order, order, entries);
+    made.map_err(|error| MceipError::new_err(format!("{name}: {error}")))
+}
+
+/// A matrix that is symmetric, or else so far from it that `System` says where.
+fn symmetric(name: &str, order: usize, triplets: Triplets) -> PyResult<Matrix> {
+    let matrix = matrix(name, order, triplets)?.into_exact();
+    if asymmetry(&matrix) == Asymmetry::Rounding {
+        return Err(MceipError::new_err(format!(
+            "{name}: expected a matrix that is symmetric to the last bit, got one that is so up \
+             to rounding: (A + A.T) / 2 of it is"
+        )));
+    }
+    Ok(matrix.into())
 }
 
 /// A decimal or a fraction, exactly what it spells.

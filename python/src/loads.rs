@@ -3,12 +3,13 @@
 use crate::contact::Contacts;
 use crate::watched::watched;
 use crate::{MceipError, NativeProblem, NotCertifiedError, Triplets};
-use crate::{matrix, number, refused, rejection, warnings};
+use crate::{number, refused, rejection, symmetric};
 use mceip::{Error, FrictionGrid, FrictionGridError, LoadPath, Loads, Rational};
 use mceip_check::certificate::EquilibriumCertificate;
 use mceip_check::check_equilibrium;
 use mceip_model::file::LoadsFile;
 use mceip_model::{BodyNode, ContactCandidate, Coordinates, LoadStep, LoadedBody, LoadedParts};
+use mceip_paper::{Plausibility, PlausibilityInput, rows_alone};
 use pyo3::prelude::*;
 
 /// Places of nodes as text, their degrees of freedom along x and y, and edges between them.
@@ -50,15 +51,17 @@ impl NativeLoads {
         mesh: Option<Mesh>,
         accept_warnings: bool,
     ) -> PyResult<NativeLoads> {
-        let mass = mass.map(|mass| matrix(dofs, mass)).transpose()?;
+        let mass = mass.map(|mass| symmetric("mass", dofs, mass)).transpose()?;
         let table = candidates.table(dofs, None)?;
         let gaps = gaps.iter().map(|gap| number("gap", gap));
         let gaps: Vec<Rational> = gaps.collect::<PyResult<_>>()?;
         let candidates = table.particles.iter().cloned().zip(gaps);
         let steps = steps.into_iter().map(step).collect::<PyResult<_>>()?;
 
+        let stiffness = symmetric("stiffness", dofs, stiffness)?.into_exact();
+        let alone = rows_alone(&stiffness);
         let body = LoadedBody::new(LoadedParts {
-            stiffness: matrix(dofs, stiffness)?.into_exact(),
+            stiffness,
             mass: mass.map(mceip::Matrix::into_exact),
             friction: Some(number("friction", friction)?),
             candidates: candidates
@@ -71,14 +74,20 @@ impl NativeLoads {
 
         let coordinates = mesh.map(|mesh| coordinates(mesh, &body)).transpose()?;
 
-        // The degrees of freedom have the numbers of the given matrices, held ones included.
-        let places = body.places().iter().enumerate();
-        let places = places.filter_map(|(given, place)| Some((given.to_string(), (*place)?)));
         let warnings = if accept_warnings {
             Vec::new()
         } else {
-            let names = places.collect();
-            warnings(body.system(), &table, Some(&names), coordinates.as_ref())
+            let looked_at = Plausibility::new(&PlausibilityInput {
+                system: body.system(),
+                rows_alone: &alone,
+                places: Some(body.places()),
+                reactions: &table.reactions,
+                asks_for_reactions: false,
+                displacements: None,
+                coordinates: coordinates.as_ref(),
+                dof_names: None,
+            });
+            looked_at.warnings
         };
         Ok(NativeLoads(Loads::from(LoadsFile {
             name: None,
@@ -109,27 +118,16 @@ impl NativeLoads {
     }
 }
 
-/// The nodes with the degrees of freedom of the body, without those that are held.
+/// The nodes, with the degrees of freedom of the given matrices.
 fn coordinates((points, dofs, edges): Mesh, body: &LoadedBody) -> PyResult<Coordinates> {
-    let places = body.places();
-    let moved = |dof: Option<usize>| match dof {
-        None => Ok(None),
-        Some(dof) => places.get(dof).copied().ok_or_else(|| {
-            let dofs = places.len();
-            MceipError::new_err(format!(
-                "mesh: expected degrees of freedom below {dofs}, got {dof}"
-            ))
-        }),
-    };
-
     let mut nodes = Vec::with_capacity(points.len());
-    for ([x, y], [along_x, along_y]) in points.into_iter().zip(dofs) {
+    for ([x, y], dofs) in points.into_iter().zip(dofs) {
         nodes.push(BodyNode {
-            dofs: [moved(along_x)?, moved(along_y)?],
+            dofs,
             place: [number("mesh", &x)?, number("mesh", &y)?],
         });
     }
-    Coordinates::new(nodes, edges, body.system()).map_err(|e| refused(e.into()))
+    Coordinates::under_loads(nodes, edges, body).map_err(|e| refused(e.into()))
 }
 
 fn step(step: Step) -> PyResult<LoadStep> {

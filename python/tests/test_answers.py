@@ -170,6 +170,8 @@ def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_proble
     assert analysis.critical.mu[0] <= presence.start < presence.end
     assert presence.start <= 3 <= presence.end
     assert presence.pieces > 0
+    assert not absence.of_every_member and not presence.of_every_member
+    assert "member" not in repr(absence) + repr(presence)
 
     stability = next(verdict for verdict in verdicts if isinstance(verdict, mceip.Stability))
     assert stability == analysis.stability
@@ -180,6 +182,38 @@ def test_every_proof_of_an_analysis_is_accepted_again_and_not_for_another_proble
         moved = dataclasses.replace(proof, problem=other)
         with pytest.raises(mceip.RejectedError):
             moved.check()
+
+
+def test_a_certificate_of_any_kind_is_checked_from_its_file(tmp_path):
+    analysis = lattice(4, 3).problem(3).analyze(samples=0)
+
+    for proof in analysis.proofs:
+        path = tmp_path / f"{proof.name}.json"
+        path.write_text(json.dumps(proof.certificate))
+        problem = mceip.Problem.from_json(proof.problem)
+        for given in (proof.certificate, path, path.read_text()):
+            assert mceip.check(problem, given) == proof.check()
+
+
+def test_what_is_no_certificate_is_refused_with_what_to_give(example, tmp_path):
+    problem = example("fold")
+    everything = problem.complete()
+
+    for given, message in [
+        (everything, "`certificate` of a SolutionSet"),
+        ("c.json", "pathlib.Path to its file, got 'c.json'"),
+        (tmp_path / "no-such-file.json", "no-such-file"),
+        (b"{}", "JSON object"),
+    ]:
+        with pytest.raises(mceip.MceipError, match=message):
+            mceip.check(problem, given)
+    with pytest.raises(mceip.MceipError, match="expected mceip.Problem .*got str"):
+        mceip.check("fold.json", everything.certificate)
+    with pytest.raises(mceip.MceipError, match="executor: .*got 2"):
+        problem.complete(executor=2)
+    for value, x, message in [(None, [1.0, 0.0], "value"), (2.0, "ab", "x: "), (2.0, None, "x: ")]:
+        with pytest.raises(mceip.MceipError, match=message):
+            problem.certify(value, x)
 
 
 def test_every_body_within_the_radii_has_its_critical_friction_between_two_bounds(example):
@@ -193,8 +227,47 @@ def test_every_body_within_the_radii_has_its_critical_friction_between_two_bound
     assert next(iter(members.costs)) == "the friction factor of particle heel"
     verdicts = [proof.check() for proof in analysis.proofs if proof.name.startswith("members")]
     assert [type(verdict) for verdict in verdicts] == [mceip.Absence, mceip.Presence]
+    assert all(verdict.of_every_member and "every member" in repr(verdict) for verdict in verdicts)
 
     assert example("point").analyze(samples=0).members is None
+
+
+def test_radii_of_matrices_and_friction_are_those_of_the_file(example):
+    stiffness = np.array([[2.0, -1, -2, 0], [-1, 3, 0, -2], [-2, 0, 4, 0], [0, -2, 0, 5]])
+    about = [Fraction(19, 20), Fraction(21, 20)]
+    contacts = [
+        mceip.Contact(0, 2, "slip-", name="heel", friction_factor_range=about),
+        mceip.Contact(1, 3, "slip-", name="toe", friction_factor_range=("0.95", "1.05")),
+    ]
+
+    def robust(radius, **contact):
+        changed = [dataclasses.replace(entry, **contact) for entry in contacts]
+        return mceip.Problem.from_matrices(
+            stiffness, np.eye(4), 1, changed, stiffness_radius=radius, accept_warnings=True
+        )
+
+    # 1/200 is no double: the radii of the file are a little smaller.
+    radius = np.where(stiffness == 0, 0, 1 / 128)
+    expected = json.loads(example("robust").to_json())
+    entries = expected["system"]["radii"]["stiffness"]["matrix"]["entries"]
+    for entry in entries:
+        entry[2] = "1/128"
+    assert robust(radius).sha256 == mceip.Problem.from_json(expected).sha256
+
+    members = robust(radius).analyze(samples=0).members
+    assert members.absent_below < members.middle < members.present[0]
+    with pytest.raises(mceip.MceipError, match="radii"):
+        robust(radius).complete()
+    for wrong, message in [
+        (-radius, "radius of K"),
+        (radius[:2, :2], "stiffness_radius: .*4 x 4"),
+        (radius * np.nan, "stiffness_radius: entry"),
+    ]:
+        with pytest.raises(mceip.MceipError, match=message):
+            robust(wrong)
+    for wrong in ((1, 2, 3), 0.05, ("1", "a"), (2, 1)):
+        with pytest.raises(mceip.MceipError, match="friction_factor_range"):
+            robust(radius, friction_factor_range=wrong)
 
 
 def test_without_divergence_at_any_friction_there_is_no_critical_one(point):

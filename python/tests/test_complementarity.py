@@ -137,7 +137,9 @@ def test_a_wrong_jacobian_is_named():
         ({"l": [0.0] * 3}, "l: expected 4 numbers, got 3"),
         ({"z0": [0.0] * 3}, "z0: expected 4 numbers, got 3"),
         ({"z0": [math.nan] * 4}, "expected a finite start at 0, got NaN"),
-        ({"l": "nothing"}, "l: expected numbers"),
+        ({"l": "nothing"}, "l: expected real numbers, got entries of type <U7"),
+        ({"l": None}, "l: expected numbers, got None"),
+        ({"l": [[0.0], [0.0, 0.0]]}, "l: expected numbers: "),
         ({"l": np.zeros((2, 2))}, "l: expected a list of numbers, got an array of shape (2, 2)"),
         ({"tolerance": 0.0}, "expected option convergence_tolerance > 0 and finite, got 0"),
         ({"F": lambda z: z[:3]}, "F: expected 4 numbers, got an array of shape (3,)"),
@@ -153,7 +155,7 @@ def test_what_makes_no_sense_is_refused(changes, message):
 
 
 def test_a_function_that_is_not_finite_is_a_reason_to_stop():
-    point = mceip.mcp(lambda z: np.full(1, np.nan), lambda z: np.eye(1), 0, 1)
+    point = mceip.mcp(lambda z: np.full(1, np.nan), lambda z: np.eye(1), 0, 1, [0.0])
     assert not point.converged and point.reason == "expected a finite F[0]"
 
 
@@ -183,3 +185,22 @@ def test_an_obstacle_problem_with_a_sparse_jacobian():
     assert in_the_square[n // 2, n // 2] and not in_the_square[0, 0]
     assert np.abs(point.f[~touches]).max() <= 1e-10
     assert point.f[touches].min() >= 0
+
+
+@pytest.mark.parametrize(
+    "changes, message",
+    [
+        ({"F": lambda z: z + 1j}, "F: expected real numbers, got entries of type complex128"),
+        ({"F": lambda z: ["1"]}, "F: expected real numbers"),
+        ({"J": lambda z: np.eye(1) * 1j}, "J: expected real numbers"),
+        ({"J": lambda z: scipy.sparse.eye(1) * 1j}, "J: expected real numbers"),
+        ({"J": np.eye(1)}, "J: expected a function of an array, got ndarray"),
+        ({"F": 3}, "F: expected a function of an array, got int"),
+        ({"z0": None}, "z0: expected a start"),
+        ({"tolerance": "small"}, "tolerance: expected real numbers"),
+    ],
+)
+def test_what_is_no_function_of_real_numbers_is_refused(changes, message):
+    given = {"F": lambda z: z - 2, "J": None, "l": 0, "u": math.inf, "z0": [1.0], **changes}
+    with pytest.raises(mceip.MceipError, match=message):
+        mceip.mcp(**given)

@@ -12,6 +12,7 @@ import mceip
 
 STIFFNESS = np.array([[2.0, 1.5], [1.5, 2.0]])
 ROW = {"tangential": 0, "normal": 1, "state": "slip+"}
+REACTION = {"reaction_tangential": -1.5, "reaction_normal": -1.0}
 
 
 def with_contacts(contacts, friction="1.5"):
@@ -58,8 +59,7 @@ def test_tables_are_lists_of_contacts(tmp_path):
     for table in (path, str(path), [ROW], columns):
         assert with_contacts(table).sha256 == expected
 
-    reactions = {"reaction_tangential": -1.5, "reaction_normal": -1.0, "particle": None}
-    assert with_contacts([{**ROW, **reactions}]).unknown == "lambda2"
+    assert with_contacts([{**ROW, **REACTION, "particle": None}]).unknown == "lambda2"
 
 
 def test_an_oblique_obstacle_is_an_angle_or_a_frame_in_doubles():
@@ -103,8 +103,32 @@ def test_reactions_that_contradict_the_state_are_refused():
 
     with pytest.raises(mceip.MceipError, match="E7.*line 2"):
         with_contacts([{**ROW, **reactions}])
-    with pytest.raises(mceip.MceipError, match="without reactions"):
+    with pytest.raises(mceip.MceipError, match="no reactions"):
         mceip.Problem.friction_threshold(STIFFNESS, [{**ROW, **reactions}])
+
+    contact = mceip.Contact(**ROW, **reactions)
+    with pytest.raises(mceip.MceipError, match="E7: contact 0.*against the impending slip"):
+        with_contacts([contact])
+    with pytest.raises(mceip.MceipError, match="no reactions"):
+        mceip.Problem.friction_threshold(STIFFNESS, [contact])
+    with pytest.raises(mceip.MceipError, match="contact 0: expected both"):
+        with_contacts([mceip.Contact(**ROW, reaction_normal=-1)])
+
+
+def test_reactions_of_contacts_are_those_of_a_table():
+    # Turned by 30 degrees: r_T = -1.5, r_N = -1 along tangent and normal, in doubles.
+    cosine, sine = np.cos(np.radians(30.0)), np.sin(np.radians(30.0))
+    along = {
+        "reaction_tangential": -1.5 * cosine + sine,
+        "reaction_normal": -1.5 * sine - cosine,
+    }
+    frame = [[cosine, sine], [-sine, cosine]]
+
+    by_contact = with_contacts([mceip.Contact(**ROW, **along, frame=frame)])
+    by_table = with_contacts([{**ROW, **along, "angle": 30}])
+
+    assert by_contact.to_json() == by_table.to_json()
+    assert by_contact.warnings == []
 
 
 @pytest.mark.parametrize(
@@ -140,7 +164,8 @@ def test_what_is_no_contact_is_refused(point, changes, message):
         ([{**ROW, "particle": "a,b"}], "commas"),
         ({"tangential": [0, 1], "normal": [1, 2, 3], "state": "stick"}, "cells"),
         ([], "particle"),
-        ([ROW, mceip.Contact(0, 1, "stick")], "list of mceip.Contact"),
+        ([ROW, mceip.Contact(0, 1, "stick")], "list of mceip.Contact.* at 0"),
+        ([(0, 1, "slip+")], r"\(0, 1, 'slip\+'\) at 0"),
         (3, "list of mceip.Contact"),
         ("no-such-table.csv", "no-such-table"),
     ],
@@ -153,12 +178,13 @@ def test_what_is_no_table_is_refused(table, message):
 @pytest.mark.parametrize(
     "stiffness, message",
     [
-        ([[2.0, 1.0], [1.5, 2.0]], "ymmetr"),
+        ([[2.0, 1.0], [1.5, 2.0]], r"E3: .*K\[0\]\[1\]"),
+        ([[2.0, 1.5], [1.5 + 2**-50, 2.0]], r"stiffness: .*up to rounding: \(A \+ A.T\) / 2"),
         ([[1.0, 2.0], [3.0]], "stiffness.*one length"),
-        ([1.0, 2.0], "stiffness.*shape"),
+        ([1.0, 2.0], "stiffness.*shape.*scipy.sparse.diags"),
         (np.ones((2, 3)), "stiffness.*shape"),
         (np.eye(3), "mass.*3 x 3"),
-        ([[np.nan, 0.0], [0.0, 1.0]], r"\(0, 0\)"),
+        ([[np.nan, 0.0], [0.0, 1.0]], r"stiffness: entry \(0, 0\)"),
         ([[np.inf, 0.0], [0.0, 1.0]], r"\(0, 0\)"),
         ([[2**53 + 1, 0], [0, 1]], "digits"),
         (np.array([[1 + np.finfo(np.longdouble).eps, 0], [0, 1]]), "digits"),
@@ -192,8 +218,9 @@ def test_windows_files_and_unknowns_that_are_none_are_refused(point, tmp_path):
         mceip.Problem.from_pencil(np.eye(2), np.eye(2), unknown="t")
     with pytest.raises(mceip.MceipError):
         mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=[2])
-    with pytest.raises(mceip.MceipError, match="free"):
-        mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=[-1])
+    for free in ([-1], 1):
+        with pytest.raises(mceip.MceipError, match="free"):
+            mceip.Problem.from_pencil(np.eye(2), np.eye(2), free=free)
 
 
 def test_a_problem_survives_its_file(point, tmp_path):
@@ -225,8 +252,9 @@ def test_threads_that_cannot_be_are_refused(point, threads):
 
 def heavy(**options):
     """A point and a free node whose mass belongs to another unit of length."""
-    stiffness = np.diag([2.0, 2.0, 3.0])
-    return mceip.Problem.from_matrices(stiffness, np.eye(3) * 1e9, "1.5", [ROW], **options)
+    stiffness = [[2.0, 0.0, -1.0], [0.0, 2.0, 0.0], [-1.0, 0.0, 3.0]]
+    rows = [{**ROW, **REACTION}]
+    return mceip.Problem.from_matrices(stiffness, np.eye(3) * 1e9, "1.5", rows, **options)
 
 
 def test_what_looks_wrong_in_a_model_is_said_and_kept(tmp_path):
@@ -250,9 +278,20 @@ def test_what_looks_wrong_in_a_model_is_said_and_kept(tmp_path):
 def test_accepted_warnings_and_a_sound_model_say_nothing(point):
     accepted = heavy(accept_warnings=True)
 
-    assert accepted.warnings == [] == point().warnings
+    assert accepted.warnings == [] == point(**REACTION).warnings
     assert "warnings" not in json.loads(accepted.to_json())
     assert accepted.analyze(samples=0).warnings == []
+
+
+def test_missing_reactions_and_supports_left_in_the_stiffness_are_said(point):
+    with pytest.warns(mceip.ModelWarning, match="particle 0: no reaction is given"):
+        point()
+
+    stiffness, mass = np.eye(4), np.eye(4)
+    stiffness[:2, :2] = STIFFNESS
+    stiffness[2:, 2:] = [[3.0, -1.0], [-1.0, 1e12]]
+    with pytest.warns(mceip.ModelWarning, match="1.0000e12 at dof 3 and nothing of that size"):
+        mceip.Problem.from_matrices(stiffness, mass, "1.5", [{**ROW, **REACTION}])
 
 
 def test_warnings_name_particles_as_the_table_does():

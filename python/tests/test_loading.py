@@ -1,6 +1,7 @@
 """Paths of bodies under loads: against the command line's example, and what is refused."""
 
 import json
+import math
 import os
 import re
 import subprocess
@@ -191,7 +192,7 @@ def test_what_is_no_mesh_of_the_body_is_refused():
     points = [[0.0, 0.0], [1.0, 0.0]]
     press = mceip.Step("press", forces={1: 1})
     for mesh, words in [
-        (mceip.Mesh(points, [[0, 1], [2, 9]]), "below 4, got 9"),
+        (mceip.Mesh(points, [[0, 1], [2, 9]]), "9 of 4 for node 1"),
         (mceip.Mesh(points, [[0, 1], [0, 3]]), "coordinates"),
         (mceip.Mesh(points, [[0, 1]]), "dofs"),
         (mceip.Mesh(points, [[0.0, 1.0], [2.0, 3.0]]), "dofs"),
@@ -209,7 +210,8 @@ def test_what_is_no_mesh_of_the_body_is_refused():
 
 def test_what_looks_wrong_is_said_and_repeated_unless_it_is_accepted():
     mass = 1e9 * np.eye(3)
-    heavy = mceip.Body(2 * np.eye(3), mass, candidates=[mceip.Candidate(0, 1)])
+    stiffness = [[2, 0, -1], [0, 2, 0], [-1, 0, 2]]
+    heavy = mceip.Body(stiffness, mass, candidates=[mceip.Candidate(0, 1)])
     push = [mceip.Step("push", forces={0: 3, 1: 2})]
 
     with pytest.warns(mceip.ModelWarning, match="the lowest frequency is .* below 1e-2") as said:
@@ -220,6 +222,44 @@ def test_what_looks_wrong_is_said_and_repeated_unless_it_is_accepted():
         warnings.simplefilter("error")
         path = heavy.path(push, 1, accept_warnings=True)
     assert path.stretches[-1].problem.warnings == []
+
+
+def test_supports_left_in_the_stiffness_are_said_by_their_given_number():
+    stiffness = np.diag([1.0, 2.0, 2.0, 1e12])
+    body = mceip.Body(stiffness, candidates=[mceip.Candidate(1, 2)], held=[0])
+
+    with pytest.warns(mceip.ModelWarning, match="1.0000e12 at dof 3 and nothing of that size"):
+        body.path([mceip.Step("push", forces={1: 3, 2: 2})], 1)
+
+
+def test_the_file_of_the_loads_has_what_is_prescribed_at_held_nodes():
+    stiffness = [[2, 0, -1, 0], [0, 2, 0, -1], [-1, 0, 2, 0], [0, -1, 0, 2]]
+    mesh = mceip.Mesh([[0, 0], [0, 1]], [[0, 1], [2, 3]])
+    candidates = [mceip.Candidate(0, 1, normal_direction=-1)]
+    steps = [
+        mceip.Step("press", displacements={3: "-0.5", 2: 0}),
+        mceip.Step("drag", displacements={2: "1/3"}),
+    ]
+
+    path = mceip.Body(stiffness, candidates=candidates, mesh=mesh).path(steps, 1)
+
+    coordinates = json.loads(path.loads())["coordinates"]
+    assert coordinates["nodes"][1][:2] == [None, None]
+    assert coordinates["prescribed"] == [[0, 1, "0", "-1/2"], [1, 1, "1/3", "0"]]
+
+
+@pytest.mark.parametrize(
+    "given, message",
+    [
+        ({"candidates": 5}, "candidates: expected a list of mceip.Candidate, got 5"),
+        ({"candidates": mceip.Candidate(0, 1)}, "candidates: expected a list"),
+        ({"candidates": [mceip.Candidate(0, 1, gap=math.nan)]}, "candidate 0: gap: .*got nan"),
+        ({"candidates": [mceip.Candidate(0, 1)], "held": 5}, "held: expected a list of integers"),
+    ],
+)
+def test_what_is_no_body_is_refused_with_its_place(given, message):
+    with pytest.raises(mceip.MceipError, match=message):
+        mceip.Body(np.eye(2), **given)
 
 
 def test_loads_are_lists_or_mappings_and_matrices_of_any_kind():

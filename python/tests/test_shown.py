@@ -14,7 +14,15 @@ def shown(example):
     analysis = example("point").analyze(samples=0)
     body, steps, friction = example_body()
     path = body.path(steps, friction)
+    proofs = example("robust").analyze(samples=0)
+    absence, presence, *_, stability = (
+        proof.check() for proof in proofs.proofs if not isinstance(proof.check(), mceip.Accepted)
+    )
     return {
+        "absence": absence,
+        "presence": presence,
+        "stability": stability,
+        "members": proofs.members,
         "problem": example("point"),
         "found": fold.solve(),
         "set": everything,
@@ -31,6 +39,10 @@ def shown(example):
 
 def test_every_answer_has_two_lines_with_its_figures(shown):
     figures = {
+        "absence": "above 0 up to 0.650390625, of every member",
+        "presence": "of every member\n a solution with lambda^2 >= 0",
+        "stability": "above 0 up to 0.6909\n of every motion",
+        "members": "no divergence up to 0.650390625",
         "problem": "degrees of freedom: 2, contacts: 1; sought: lambda2",
         "found": "2 solutions, certified: 2, 3",
         "set": "complete\n 2 solutions: 2, 3",
