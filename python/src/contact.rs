@@ -3,7 +3,7 @@
 use crate::MceipError;
 use crate::number;
 use mceip::{ContactState, Particle, Rational};
-use mceip_paper::{ContactPlace, ContactTable, make_frames_exact, read_contacts, with_reaction};
+use mceip_paper::{ContactTable, ReactionPlace, make_frames_exact, read_contacts, with_reaction};
 use pyo3::prelude::*;
 
 /// The contacts of a mechanical system.
@@ -74,7 +74,7 @@ fn of_list(contacts: Vec<Contact>, friction: Option<&Rational>) -> PyResult<Cont
         let Some(along_dofs) = along_dofs else {
             continue;
         };
-        let place = ContactPlace::Entry(index);
+        let place = ReactionPlace::Entry(index);
         let held = with_reaction(particles[index].clone(), along_dofs, &friction, place);
         let (particle, reaction) = held.map_err(|e| MceipError::new_err(e.to_string()))?;
         particles[index] = particle;

@@ -22,9 +22,9 @@ const LINE: usize = 3;
 /// `contact` is 0 where a node belongs to no particle, else 1 out of contact, 2 stick, 3 impending
 /// slip, 4 in contact with zero reaction. `mode` is v, in the length of the coordinates, up to a
 /// factor; `slips` is 1 where the particle slips in the mode. The points lie where the body is at
-/// rest; where a degree of freedom is held `displacement` is what the steps prescribe, and `held` is
-/// 1 at such nodes. `reaction` is the force on the body
-/// along x and y at nodes of particles, `normal_reaction` its part -r_N >= 0 that presses.
+/// rest; where a degree of freedom is held `displacement` is what the steps prescribe, and `held`
+/// is 1 at such nodes. `reaction` is the force on the body along x and y at nodes of particles,
+/// `normal_reaction` its part -r_N >= 0 that presses.
 pub fn body_vtu(body: &BodyDrawing<'_>) -> String {
     let nodes = body.coordinates.nodes();
     let mut places = Vec::with_capacity(nodes.len());

@@ -107,7 +107,7 @@ pub enum ContactsError {
     )]
     Contradiction {
         /// Where the reaction stands.
-        place: ContactPlace,
+        place: ReactionPlace,
         /// The state.
         state: &'static str,
         /// What (7) wants.
@@ -125,7 +125,7 @@ pub enum ContactsError {
     )]
     OffCone {
         /// Where the reaction stands.
-        place: ContactPlace,
+        place: ReactionPlace,
         /// The state.
         state: &'static str,
         /// What (7) wants.
@@ -224,20 +224,20 @@ pub struct TableReaction {
     pub cone_ratio: Option<f64>,
 }
 
-/// Where a contact stands.
+/// Where a reaction stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ContactPlace {
+pub enum ReactionPlace {
     /// A line of a table, from 1.
     Line(usize),
     /// An entry of a list, from 0.
     Entry(usize),
 }
 
-impl Display for ContactPlace {
+impl Display for ReactionPlace {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            ContactPlace::Line(line) => write!(f, "contacts line {line}"),
-            ContactPlace::Entry(entry) => write!(f, "contact {entry}"),
+            ReactionPlace::Line(line) => write!(f, "contacts line {line}"),
+            ReactionPlace::Entry(entry) => write!(f, "contact {entry}"),
         }
     }
 }
@@ -398,7 +398,7 @@ impl<'a> ContactRow<'a> {
             return Ok((particle, None));
         };
 
-        let place = ContactPlace::Line(self.line);
+        let place = ReactionPlace::Line(self.line);
         let (particle, reaction) = with_reaction(particle, along_dofs, friction, place)?;
         Ok((particle, Some(reaction)))
     }
@@ -583,7 +583,7 @@ pub fn with_reaction(
     particle: Particle,
     along_dofs: [Rational; 2],
     friction: &Rational,
-    place: ContactPlace,
+    place: ReactionPlace,
 ) -> Result<(Particle, TableReaction), ContactsError> {
     let given = GivenReaction::at(&particle, &along_dofs);
     let own_friction = friction * &particle.friction_factor;
@@ -647,7 +647,7 @@ impl GivenReaction {
     /// [`ContactsError::Contradiction`] and [`ContactsError::OffCone`]; `place` is named in them.
     fn fits(
         &self,
-        place: ContactPlace,
+        place: ReactionPlace,
         state: ContactState,
         friction: &Rational,
     ) -> Result<bool, ContactsError> {
@@ -811,7 +811,7 @@ mod tests {
                 matches!(
                     refused,
                     Err(ContactsError::Contradiction {
-                        place: ContactPlace::Line(2),
+                        place: ReactionPlace::Line(2),
                         ..
                     })
                 ),
@@ -834,7 +834,7 @@ mod tests {
             let is_named = matches!(
                 refused,
                 ContactsError::OffCone {
-                    place: ContactPlace::Line(2),
+                    place: ReactionPlace::Line(2),
                     ..
                 }
             );

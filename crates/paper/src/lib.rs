@@ -47,7 +47,7 @@ mod two_particles;
 pub use block::Block;
 pub use block_model::BlockModel;
 pub use contacts::{
-    ContactPlace, ContactTable, ContactsError, TableReaction, read_candidates, read_contacts,
+    ContactTable, ContactsError, ReactionPlace, TableReaction, read_candidates, read_contacts,
     with_reaction,
 };
 pub use doubles::{DoubleBlock, DoubleMatrix};
