@@ -439,6 +439,16 @@ fn the_body_under_load_is_written_for_paraview() {
     assert_eq!(at("step-01.vtu", "displacement")[9..], [0.0, -0.2, 0.0]);
     assert_eq!(at("step-02.vtu", "displacement")[9..], [-1.0, -0.2, 0.0]);
 
+    // So it is where the file has no degrees of freedom of the plate, as one of `convert`.
+    let without_plate = mceip::Loads::read(&file).unwrap().to_json();
+    let without_plate = folder.write("without-plate.json", &without_plate);
+    let again = folder.path("again");
+    exits(0, &format!("path {without_plate} --vtk {again}"));
+    for name in ["step-01.vtu", "step-02.vtu"] {
+        let moved = point_data(&format!("{again}/{name}"), "displacement");
+        assert_eq!(moved, at(name, "displacement"), "{name}");
+    }
+
     // Every obstacle is below: the reactions at the end of a step are those of its last stretch.
     for (name, last) in [("step-01.vtu", 1), ("step-02.vtu", 7)] {
         let stop = &json["intervals"][last]["stop"];
