@@ -74,6 +74,8 @@ pub use mceip_check::{
 #[cfg(feature = "solver")]
 pub use mceip_engine::analysis::{self, Analysis};
 #[cfg(feature = "solver")]
+pub use mceip_engine::lean::LEAN_FORMAT;
+#[cfg(feature = "solver")]
 pub use mceip_engine::multistart::Uncertified;
 #[cfg(feature = "solver")]
 pub use mceip_engine::run::{Cancel, Kept, Progress};

@@ -13,7 +13,7 @@ mod loads;
 mod watched;
 
 use contact::Contacts;
-use mceip::{Certificate, Error, Matrix, Problem, Rational, Rejected, Unknown};
+use mceip::{Certificate, Error, LEAN_FORMAT, Matrix, Problem, Rational, Rejected, Unknown};
 use mceip_check::Provable;
 use mceip_check::certificate::{
     CRITICAL_FORMAT, CriticalCertificate, PRESENCE_FORMAT, PresenceCertificate, STABILITY_FORMAT,
@@ -291,6 +291,13 @@ impl NativeProblem {
 
     /// The verdict of the checker on a certificate about this problem, whatever its kind.
     fn check(&self, py: Python<'_>, text: &str) -> PyResult<String> {
+        let full;
+        let text = if require_format(text, LEAN_FORMAT).is_ok() {
+            full = py.detach(|| self.0.elaborate(text)).map_err(refused)?;
+            &full
+        } else {
+            text
+        };
         let is = |format| require_format(text, format).is_ok();
 
         let accepted = if is(CRITICAL_FORMAT) {
@@ -361,6 +368,7 @@ fn certificate(text: &str) -> PyResult<Certificate> {
 fn refused(error: Error) -> PyErr {
     match &error {
         Error::Rejected(rejected) => rejection(rejected),
+        Error::Lean(_) => RejectedError::new_err(error.to_string()),
         Error::NotCertified(_) => NotCertifiedError::new_err(error.to_string()),
         _ => MceipError::new_err(error.to_string()),
     }

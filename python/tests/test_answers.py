@@ -195,6 +195,25 @@ def test_a_certificate_of_any_kind_is_checked_from_its_file(tmp_path):
             assert mceip.check(problem, given) == proof.check()
 
 
+def test_a_lean_certificate_is_checked_with_what_it_leaves_out(example):
+    analysis = lattice(4, 3).problem(3).analyze(samples=0)
+    proof = next(proof for proof in analysis.proofs if proof.name == "absence")
+    problem = mceip.Problem.from_json(proof.problem)
+
+    certificate = json.loads(json.dumps(proof.certificate))
+    for anchor in certificate["condensation"]["anchors"]:
+        for matrix in anchor["right"] + anchor["left_friction"]:
+            del matrix["rows"]
+    lean = {"format": "mceip-lean/1", "certificate": certificate}
+    assert mceip.check(problem, lean) == proof.check()
+
+    with pytest.raises(mceip.RejectedError, match="problem_sha256"):
+        mceip.check(example("point"), lean)
+    certificate["condensation"]["anchors"][0]["right"][0]["exponent"] = 0
+    with pytest.raises(mceip.RejectedError):
+        mceip.check(problem, lean)
+
+
 def test_what_is_no_certificate_is_refused_with_what_to_give(example, tmp_path):
     problem = example("fold")
     everything = problem.complete()

@@ -7,7 +7,9 @@ use mceip_check::Proved;
 use mceip_check::certificate::Certificate;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
+use mceip_engine::lean::elaborate_file;
 use mceip_engine::report::Listed;
+use mceip_engine::run::Watch;
 use mceip_model::reduction::reduce;
 
 /// A solution with its own certificate.
@@ -60,5 +62,14 @@ impl Problem {
             solution,
             certificate,
         })
+    }
+
+    /// The full text of a lean certificate (`mceip-lean/1`) about this problem: the matrices that
+    /// it leaves out are made anew. It is not checked.
+    ///
+    /// # Errors
+    /// [`Error::Lean`]: another problem, another format, or an anchor that cannot be made.
+    pub fn elaborate(&self, lean: &str) -> Result<String, Error> {
+        Ok(elaborate_file(self.as_model(), lean, &Watch::nobody())?)
     }
 }

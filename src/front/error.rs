@@ -55,6 +55,10 @@ pub enum Error {
     #[cfg(feature = "solver")]
     #[error(transparent)]
     NotCertified(#[from] mceip_engine::certify::NotCertified),
+    /// What a lean certificate leaves out cannot be made anew.
+    #[cfg(feature = "solver")]
+    #[error(transparent)]
+    Lean(#[from] mceip_engine::lean::LeanError),
     /// The loading path cannot be followed.
     #[cfg(feature = "solver")]
     #[error(transparent)]
