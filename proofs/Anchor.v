@@ -39,12 +39,14 @@ Record anchor := Anchor {
   anchor_left : seq matrix;
   anchor_scale : seq Z }.
 
-(* Z, bounds of the norms of l and r, and of the row sums of A_1,ff. *)
+(* Z, bounds of the norms of l and r, and of the row sums of A_1,ff; how far Z of a member may be
+   from it. *)
 Record anchor_family := AnchorFamily {
   series_z : seq matrix;
   left_norms : seq polynomial;
   right_norms : seq polynomial;
-  drift : Z }.
+  drift : Z;
+  spread_z : seq matrix }.
 
 (* An entry of a local pencil: centers and radii at 0 and of the slope. *)
 Record local_entry := LocalEntry {
@@ -89,23 +91,24 @@ Definition ss_block (row : nat -> sparse_row) : matrix :=
   let columns := slip Q in
   [seq (let entries := row i in [seq lookup entries j | j <- columns]) | i <- columns].
 
-(* u Y - F X, for F = f_0 + d f_1 *)
-Definition residual_series (f0 f1 : seq sparse_row) (Y X : seq matrix) : seq matrix :=
+(* u Y - F X, for F = f_0 + d f_1; the sign is -1, and 1 where bounds of absolute values are put
+   together. *)
+Definition residual_series sign (f0 f1 : seq sparse_row) (Y X : seq matrix) : seq matrix :=
   add_series (scale_series (anchor_unit a) Y)
-    (scale_series (-1) (add_series (product_series f0 X) ([::] :: product_series f1 X))).
+    (scale_series sign (add_series (product_series f0 X) ([::] :: product_series f1 X))).
 
-Definition residual_right :=
-  residual_series (ff_block row_0) (ff_block row_1) [:: fs_block row_0; fs_block row_1]
+Definition residual_right sign :=
+  residual_series sign (ff_block row_0) (ff_block row_1) [:: fs_block row_0; fs_block row_1]
     (anchor_right a).
-Definition residual_left :=
-  residual_series (ff_block row_0) (ff_block row_1) [:: sf_block row_0; sf_block row_1]
+Definition residual_left sign :=
+  residual_series sign (ff_block row_0) (ff_block row_1) [:: sf_block row_0; sf_block row_1]
     (anchor_left a).
 
 (* Z for a given r. *)
-Definition center_series (r : seq matrix) : seq matrix :=
+Definition center_series sign (r : seq matrix) : seq matrix :=
   let u := anchor_unit a in
   add_series (scale_series (u * u) [:: ss_block row_0; ss_block row_1])
-    (scale_series (-1)
+    (scale_series sign
       (add_series
          (scale_series u (cross_series ns [:: sf_block row_0; sf_block row_1] (anchor_right a)))
          (cross_series ns (anchor_left a) r))).
@@ -113,8 +116,8 @@ Definition center_series (r : seq matrix) : seq matrix :=
 Definition row_sum (row : sparse_row) := foldr (fun e s => Z.abs e.2 + s) 0 row.
 
 Definition expand_from (f1 : seq sparse_row) (l r : seq matrix) : anchor_family :=
-  AnchorFamily (center_series r) [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
-    (foldr Z.max 0 [seq row_sum row | row <- f1]).
+  AnchorFamily (center_series (-1) r) [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
+    (foldr Z.max 0 [seq row_sum row | row <- f1]) [::].
 
 Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
 
@@ -122,13 +125,55 @@ Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
 Definition expand : option anchor_family :=
   let f0 := ff_block row_0 in
   let f1 := ff_block row_1 in
-  let l := residual_series f0 f1 [:: sf_block row_0; sf_block row_1] (anchor_left a) in
-  let r := residual_series f0 f1 [:: fs_block row_0; fs_block row_1] (anchor_right a) in
+  let l := residual_series (-1) f0 f1 [:: sf_block row_0; sf_block row_1] (anchor_left a) in
+  let r := residual_series (-1) f0 f1 [:: fs_block row_0; fs_block row_1] (anchor_right a) in
   if [&& 0 <? q, 0 <? anchor_unit a, all (fun i => 0 <? nth 0 (anchor_scale a) i) (iota 0 ns),
          small (anchor_left a), small l & small r]
   then Some (expand_from f1 l r) else None.
 
 End Expansion.
+
+(* Members of a pencil: entries within radii of its own, which are rows of integers as well. *)
+Section Members.
+
+Variables (Q : pencil) (a : anchor) (radii : seq sparse_row * seq sparse_row).
+
+Definition radii_pencil := Pencil (order Q) radii.1 radii.2 (free Q).
+
+Definition absolute (L : seq matrix) : seq matrix :=
+  [seq [seq [seq Z.abs c | c <- row] | row <- M] | M <- L].
+
+Definition absolute_anchor := Anchor (anchor_center a) (anchor_unit a) (absolute (anchor_right a))
+  (absolute (anchor_left a)) (anchor_scale a).
+
+(* With D = F_m - F and so on, bounds of u D_fs - D_ff W, of u D_sf' - D_ff V, and of how far Z of
+   a member may be from that of the pencil. *)
+Definition widened_family (fam : anchor_family) : option anchor_family :=
+  let l := residual_left radii_pencil absolute_anchor 1 in
+  let r := residual_right radii_pencil absolute_anchor 1 in
+  let added (n : seq polynomial) (L : seq matrix) :=
+    [seq add_poly (nth [::] n i) (norms L i) | i <- iota 0 (size (slip Q))] in
+  if small Q l && small Q r
+  then Some (AnchorFamily (series_z fam) (added (left_norms fam) l) (added (right_norms fam) r)
+               (drift fam) (center_series radii_pencil absolute_anchor 1 r))
+  else None.
+
+End Members.
+
+(* Without radii the pencil is its only member. *)
+Definition expand_member Q (radii : option (seq sparse_row * seq sparse_row)) a :=
+  if expand Q a is Some fam then
+    if radii is Some rad then widened_family Q a rad fam else Some fam
+  else None.
+
+(* The rows with the sums of those of the radii taken from the diagonal. *)
+Definition lowered (rows radii : seq sparse_row) : seq sparse_row :=
+  [seq (i, - row_sum (nth [::] radii i)) :: nth [::] rows i | i <- iota 0 (size rows)].
+
+Definition lowered_block Q (row : pencil -> nat -> sparse_row)
+    (radii : option (seq sparse_row * seq sparse_row)) :=
+  let block := ff_block Q (row Q) in
+  if radii is Some rad then lowered block (ff_block Q (row (radii_pencil Q rad))) else block.
 
 Section Region.
 
@@ -163,11 +208,12 @@ Definition remainder_slope power (nl nr dl dr : Z * Z) :=
   divide_up (power * extent * nl.1 * nr.1 * drift fam * bound_d * bound_d)
             (unit_y * nl.2 * nr.2 * bound_n * bound_n).
 
-Definition entry_of slopes (z : polynomial) nl nr dl dr : local_entry :=
+(* e bounds how far a member is from Z. *)
+Definition entry_of slopes (z : polynomial) nl nr dl dr (e : Z * Z) : local_entry :=
   let c := substituted offset extent unit_y z in
   let rb := if slopes then 8 * spread c.1 + 4 * remainder_slope c.2 nl nr dl dr else 0 in
   LocalEntry (4 * constant_of c.1) (4 * chord_of c.1)
-    (spread c.1 + 4 * remainder_radius c.2 nl nr + rb) rb.
+    (spread c.1 + 4 * (divide_up (c.2 * e.1) e.2 + remainder_radius c.2 nl nr) + rb) rb.
 
 (* The row is multiplied by scale and divided by grain. *)
 Definition rounded grain scale (e : local_entry) : local_entry :=
@@ -183,7 +229,8 @@ Definition local_entries slopes grain : seq (seq local_entry) :=
   let get (l : seq (Z * Z)) i := nth (0, 1) l i in
   [seq [seq rounded grain (nth 0 (anchor_scale a) i)
               (entry_of slopes (poly_of (series_z fam) i j) (get nl i) (get nr j)
-                 (get dl i) (get dr j)) | j <- iota 0 ns] | i <- iota 0 ns].
+                 (get dl i) (get dr j) (at_reach (poly_of (spread_z fam) i j)))
+       | j <- iota 0 ns] | i <- iota 0 ns].
 
 Definition local_pencil slopes grain : enclosed :=
   let t := local_entries slopes grain in
@@ -248,6 +295,138 @@ Lemma prepare Q a fam low_a low_b lo hi : expand Q a = Some fam -> wellformed Q 
   proper_interval a low_a low_b lo hi -> prepared Q a fam low_a low_b lo hi.
 Proof. by []. Qed.
 
+(* The rows of a matrix A + t B. *)
+Definition member_reaction (R : rcfType) n (A B : nat -> nat -> R) t (x : nat -> R) i :=
+  \sum_(j <- iota 0 n) (A i j + t * B i j) * x j.
+
+(* The blocks of a member A + t B of the pencil. *)
+Section Member.
+
+Variables (R : rcfType) (Q : pencil) (A B : nat -> nat -> R) (a : anchor).
+Hypothesis wf : wellformed Q.
+
+Notation p := (anchor_center a).1.
+Notation q := (anchor_center a).2.
+Notation ns := (size (slip Q)).
+Notation nf := (size (free Q)).
+Notation fi := (iota 0 nf).
+Notation si := (iota 0 ns).
+Notation free_at k := (nth 0%N (free Q) k).
+Notation slip_at k := (nth 0%N (slip Q) k).
+
+Definition shifted_entry (d : R) i j : R :=
+  toR q * A i j + toR p * B i j + d * (toR q * B i j).
+
+Definition F_at d i k := shifted_entry d (free_at i) (free_at k).
+Definition G_at d i j := shifted_entry d (free_at i) (slip_at j).
+Definition H_at d i k := shifted_entry d (slip_at i) (free_at k).
+Definition D_at d i j := shifted_entry d (slip_at i) (slip_at j).
+
+(* The exact condensed matrix, times q. *)
+Definition condensed_family d := condensed_at nf (F_at d) (G_at d) (H_at d) (D_at d).
+
+Lemma shifted_entryE d t i j : toR q * t = toR p + toR q * d ->
+  shifted_entry d i j = toR q * (A i j + t * B i j).
+Proof.
+move=> td; rewrite mulrDr mulrA td /shifted_entry.
+by move: (A i j) (B i j) (toR p) => *; ring.
+Qed.
+
+Notation y := (member_reaction (order Q) A B).
+
+(* Rows in terms of the blocks. *)
+Lemma reaction_free_at d t x k : toR q * t = toR p + toR q * d ->
+  toR q * y t x (free_at k) =
+  \sum_(m <- fi) F_at d k m * free_of Q x m + \sum_(j <- si) G_at d k j * slip_of Q x j.
+Proof.
+move=> td; rewrite /member_reaction (sum_free_slip wf) mulrDr !mulr_sumr.
+rewrite (sum_positions (free Q)) (sum_positions (slip Q)); congr (_ + _).
+  by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
+by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
+Qed.
+
+Lemma reaction_slip_at d t x i : toR q * t = toR p + toR q * d ->
+  toR q * y t x (slip_at i) =
+  \sum_(m <- fi) H_at d i m * free_of Q x m + \sum_(j <- si) D_at d i j * slip_of Q x j.
+Proof.
+move=> td; rewrite /member_reaction (sum_free_slip wf) mulrDr !mulr_sumr.
+rewrite (sum_positions (free Q)) (sum_positions (slip Q)); congr (_ + _).
+  by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
+by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
+Qed.
+
+Lemma in_free i : i \in fi -> (i < nf)%N.
+Proof. by rewrite mem_iota. Qed.
+
+(* The blocks of the free variables: symmetric, and bounded from below. *)
+Definition symmetric_free (M : nat -> nat -> R) :=
+  forall i k, i \in free Q -> k \in free Q -> M i k = M k i.
+
+Definition free_form (M : nat -> nat -> R) (z : nat -> R) :=
+  \sum_(i <- fi) \sum_(k <- fi) z i * M (free_at i) (free_at k) * z k.
+
+Definition below (low : form_bound) M := [/\ 0 < toR (bound_times low) :> R,
+  0 <= toR (bound_at low) :> R & forall z, toR (bound_at low) * (\sum_(k <- fi) z k ^+ 2) <=
+    toR (bound_times low) * free_form M z].
+
+Definition free_bounded low_a low_b :=
+  [/\ symmetric_free A, symmetric_free B, below low_a A & below low_b B].
+
+Lemma F_symmetric d : symmetric_free A -> symmetric_free B -> symmetric_on nf (F_at d).
+Proof.
+move=> sA sB i k /in_free Hi /in_free Hk.
+rewrite /F_at /shifted_entry (sA (free_at i) (free_at k)) ?(sB (free_at i) (free_at k)) //;
+  exact: mem_nth.
+Qed.
+
+(* q (sigma + lo tau) *)
+Lemma F_below low_a low_b d t lo : free_bounded low_a low_b -> 0 < toR q :> R ->
+  toR q * t = toR p + toR q * d -> 0 <= lo -> lo <= t ->
+  bounded_below nf (F_at d) (toR q * (toR (bound_at low_a) / toR (bound_times low_a) +
+                                      lo * (toR (bound_at low_b) / toR (bound_times low_b)))).
+Proof.
+move=> [_ _ [ca0 da0 below_a] [cb0 db0 below_b]] q0 td lo0 lo_t z.
+move: (below_a z) (below_b z) => {}below_a {}below_b.
+set S := \sum_(k <- fi) _ in below_a below_b *; have S0 : 0 <= S by apply: squares_ge0.
+have -> : \sum_(i <- fi) \sum_(k <- fi) z i * F_at d i k * z k =
+          toR q * (free_form A z + t * free_form B z).
+  rewrite mulrDr !mulr_sumr -big_split; apply: sum_eq => i _ /=.
+  rewrite !mulr_sumr -big_split; apply: sum_eq => k _ /=.
+  rewrite /F_at (shifted_entryE _ _ td).
+  by move: (A _ _) (B _ _) (z i) (z k) (toR q) => *; ring.
+rewrite -mulrA ler_pmul2l // mulrDl; apply: ler_add.
+  by rewrite mulrAC ler_pdivr_mulr // [free_form A z * _]mulrC.
+apply: (@le_trans _ _ (lo * free_form B z)).
+  by rewrite -mulrA ler_wpmul2l // mulrAC ler_pdivr_mulr // [free_form B z * _]mulrC.
+apply: ler_wpmul2r => //.
+by rewrite -(pmulr_rge0 _ cb0); apply: le_trans below_b; rewrite mulr_ge0.
+Qed.
+
+(* W, V, the residuals and Z of the member at d. *)
+Definition right_at (d : R) := value (anchor_right a) d.
+Definition left_at (d : R) := value (anchor_left a) d.
+Notation u := (toR (anchor_unit a) : R).
+
+Definition r_at d j := residual_r nf (F_at d) (G_at d) u (right_at d) j.
+Definition l_at d i := residual_l nf (F_at d) (H_at d) u (left_at d) i.
+Definition z_at d := approximate nf (F_at d) (G_at d) (H_at d) (D_at d) u (right_at d) (left_at d).
+
+(* What the bounds of a family say, for |d| <= b. *)
+Definition family_bounds (fam : anchor_family) := forall d t b,
+  toR q * t = toR p + toR q * d -> 0 <= t -> `|d| <= b ->
+  forall i j, (i < ns)%N -> (j < ns)%N ->
+  [/\ norm_le fi (l_at d i) (eval (nth [::] (left_norms fam) i) b),
+      norm_le fi (r_at d j) (eval (nth [::] (right_norms fam) j) b) &
+      `|z_at d i j - value (series_z fam) d i j| <= eval (poly_of (spread_z fam) i j) b].
+
+(* A member over an interval. *)
+Definition prepared_member fam low_a low_b lo hi :=
+  [/\ wellformed Q,
+      [/\ 0 < toR q :> R, 0 < u & forall i, (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R],
+      free_bounded low_a low_b, family_bounds fam & proper_interval a low_a low_b lo hi].
+
+End Member.
+
 Section Expand.
 
 Variables (R : rcfType) (Q : pencil) (a : anchor).
@@ -261,47 +440,11 @@ Notation fi := (iota 0 nf).
 Notation si := (iota 0 ns).
 Notation free_at k := (nth 0%N (free Q) k).
 Notation slip_at k := (nth 0%N (slip Q) k).
+Notation own := (shifted_entry (a_entry R Q) (b_entry R Q) a).
 
-Definition shifted_entry (d : R) i j : R :=
-  toR (lookup (row_0 Q a i) j) + d * toR (lookup (row_1 Q a i) j).
-
-Definition F_at d i k := shifted_entry d (free_at i) (free_at k).
-Definition G_at d i j := shifted_entry d (free_at i) (slip_at j).
-Definition H_at d i k := shifted_entry d (slip_at i) (free_at k).
-Definition D_at d i j := shifted_entry d (slip_at i) (slip_at j).
-
-(* The exact condensed matrix, times q. *)
-Definition condensed_family d := condensed_at nf (F_at d) (G_at d) (H_at d) (D_at d).
-
-Lemma shifted_entryE d t i j : toR q * t = toR p + toR q * d ->
-  shifted_entry d i j = toR q * (a_entry R Q i j + t * b_entry R Q i j).
-Proof.
-move=> td; rewrite /shifted_entry /row_0 /row_1 lookup_cat !lookup_times toRD !toRM.
-rewrite -/(a_entry R Q i j) -/(b_entry R Q i j); move: (a_entry _ _ _ _) (b_entry _ _ _ _) => x y.
-have -> : toR q * (x + t * y) = toR q * x + (toR q * t) * y by ring.
-by rewrite td; ring.
-Qed.
-
-(* Rows of the pencil in terms of the blocks. *)
-Lemma reaction_free_at d t x k : toR q * t = toR p + toR q * d -> (k < nf)%N ->
-  toR q * reaction Q t x (free_at k) =
-  \sum_(m <- fi) F_at d k m * free_of Q x m + \sum_(j <- si) G_at d k j * slip_of Q x j.
-Proof.
-move=> td Hk; rewrite /reaction (sum_free_slip wf) mulrDr !mulr_sumr.
-rewrite (sum_positions (free Q)) (sum_positions (slip Q)); congr (_ + _).
-  by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
-by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
-Qed.
-
-Lemma reaction_slip_at d t x i : toR q * t = toR p + toR q * d -> (i < ns)%N ->
-  toR q * reaction Q t x (slip_at i) =
-  \sum_(m <- fi) H_at d i m * free_of Q x m + \sum_(j <- si) D_at d i j * slip_of Q x j.
-Proof.
-move=> td Hi; rewrite /reaction (sum_free_slip wf) mulrDr !mulr_sumr.
-rewrite (sum_positions (free Q)) (sum_positions (slip Q)); congr (_ + _).
-  by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
-by apply: eq_bigr => j _; rewrite mulrA -(shifted_entryE _ _ td).
-Qed.
+Lemma own_entry d i j :
+  toR (lookup (row_0 Q a i) j) + d * toR (lookup (row_1 Q a i) j) = own d i j.
+Proof. by rewrite /shifted_entry /row_0 /row_1 lookup_cat !lookup_times toRD !toRM. Qed.
 
 (* The blocks of the checker. *)
 Lemma entry_block (row : nat -> sparse_row) (l1 l2 : seq nat) i j :
@@ -311,21 +454,24 @@ Lemma entry_block (row : nat -> sparse_row) (l1 l2 : seq nat) i j :
 Proof. by move=> Hi Hj; rewrite /entry (nth_map 0%N) // (nth_map 0%N). Qed.
 
 Lemma value_fs d i j : (i < nf)%N -> (j < ns)%N ->
-  value [:: fs_block Q (row_0 Q a); fs_block Q (row_1 Q a)] d i j = G_at d i j.
+  value [:: fs_block Q (row_0 Q a); fs_block Q (row_1 Q a)] d i j =
+  own d (free_at i) (slip_at j).
 Proof.
-by move=> Hi Hj; rewrite !value_cons value_nil mulr0 addr0 !entry_block.
+by move=> Hi Hj; rewrite !value_cons value_nil mulr0 addr0 !entry_block // own_entry.
 Qed.
 
 Lemma value_ss d i j : (i < ns)%N -> (j < ns)%N ->
-  value [:: ss_block Q (row_0 Q a); ss_block Q (row_1 Q a)] d i j = D_at d i j.
+  value [:: ss_block Q (row_0 Q a); ss_block Q (row_1 Q a)] d i j =
+  own d (slip_at i) (slip_at j).
 Proof.
-by move=> Hi Hj; rewrite !value_cons value_nil mulr0 addr0 !entry_block.
+by move=> Hi Hj; rewrite !value_cons value_nil mulr0 addr0 !entry_block // own_entry.
 Qed.
 
 Lemma value_sf d i k : (i < ns)%N -> (k < nf)%N ->
-  value [:: sf_block Q (row_0 Q a); sf_block Q (row_1 Q a)] d k i = H_at d i k.
+  value [:: sf_block Q (row_0 Q a); sf_block Q (row_1 Q a)] d k i =
+  own d (slip_at i) (free_at k).
 Proof.
-move=> Hi Hk; rewrite !value_cons value_nil mulr0 addr0 /entry /sf_block.
+move=> Hi Hk; rewrite !value_cons value_nil mulr0 addr0 -own_entry /entry /sf_block.
 by rewrite !(nth_map 0%N) // !(nth_map [::]) ?size_map // !(nth_map 0%N).
 Qed.
 
@@ -340,22 +486,37 @@ Lemma lookup_ff (row : nat -> sparse_row) i k : (i < nf)%N -> (k < nf)%N ->
   lookup (nth [::] (ff_block Q row) i) k = lookup (row (free_at i)) (free_at k).
 Proof. by move=> Hi Hk; rewrite (nth_map 0%N) // lookup_restrict. Qed.
 
-Lemma value_residual Y X d k j : (k < nf)%N ->
-  value (residual_series a (ff_block Q (row_0 Q a)) (ff_block Q (row_1 Q a)) Y X) d k j =
-  toR (anchor_unit a) * value Y d k j - \sum_(m <- fi) F_at d k m * value X d m j.
+Lemma value_residual sign Y X d k j : (k < nf)%N ->
+  value (residual_series a sign (ff_block Q (row_0 Q a)) (ff_block Q (row_1 Q a)) Y X) d k j =
+  toR (anchor_unit a) * value Y d k j +
+  toR sign * \sum_(m <- fi) own d (free_at k) (free_at m) * value X d m j.
 Proof.
 move=> Hk; rewrite /residual_series value_add !value_scale value_add value_shift.
-rewrite !(value_product (n := nf)) ?ff_range // -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r.
-congr (_ - _); rewrite mulr_sumr -big_split; apply: sum_eq => m /=.
-rewrite mem_iota add0n => /andP[_ Hm]; rewrite !lookup_ff // /F_at /shifted_entry.
+rewrite !(value_product (n := nf)) ?ff_range //; congr (_ + _ * _).
+rewrite mulr_sumr -big_split; apply: sum_eq => m /=.
+rewrite mem_iota add0n => /andP[_ Hm]; rewrite !lookup_ff // -own_entry.
 by rewrite mulrDl mulrA.
+Qed.
+
+Lemma value_center sign r d i j : small Q (anchor_left a) -> (i < ns)%N -> (j < ns)%N ->
+  value (center_series Q a sign r) d i j =
+  toR (anchor_unit a) ^+ 2 * own d (slip_at i) (slip_at j) +
+  toR sign * (toR (anchor_unit a) *
+      (\sum_(k <- fi) own d (slip_at i) (free_at k) * value (anchor_right a) d k j) +
+    \sum_(k <- fi) value (anchor_left a) d k i * value r d k j).
+Proof.
+move=> sa Hi Hj; have small_h : small Q [:: sf_block Q (row_0 Q a); sf_block Q (row_1 Q a)].
+  by rewrite /small /= !size_map leqnn.
+rewrite /center_series value_add !value_scale value_add value_scale.
+rewrite !(value_cross (m := nf)) // value_ss // toRM -expr2; congr (_ + _ * (_ * _ + _)).
+by apply: sum_eq => k; rewrite mem_iota => Hk; rewrite value_sf.
 Qed.
 
 Variable fam : anchor_family.
 Hypothesis expanded : expand Q a = Some fam.
 
-Notation l_series := (residual_left Q a).
-Notation r_series := (residual_right Q a).
+Notation l_series := (residual_left Q a (-1)).
+Notation r_series := (residual_right Q a (-1)).
 
 Lemma expand_parts :
   [/\ 0 < toR q :> R, 0 < toR (anchor_unit a) :> R,
@@ -367,50 +528,37 @@ move: expanded; rewrite /expand; case: ifP => // /and5P[q0 u0 /allP s0 sa /andP[
 split; rewrite ?toR_gt0 // => i Hi; rewrite toR_gt0; apply: s0; rewrite mem_iota; exact: Hi.
 Qed.
 
+Lemma ready_parts : [/\ 0 < toR q :> R, 0 < toR (anchor_unit a) :> R &
+  forall i, (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R].
+Proof. by have [? ? ? _] := expand_parts. Qed.
+
 Variables (low_a low_b : form_bound).
 Hypothesis bounded_a : bounded_rows nf (ff_block Q (row_a Q)) low_a.
 Hypothesis bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b.
 
-Lemma in_free i : i \in fi -> (i < nf)%N.
-Proof. by rewrite mem_iota. Qed.
-
-Lemma F_symmetric d : symmetric_on nf (F_at d).
+Lemma own_bounded : free_bounded Q (a_entry R Q) (b_entry R Q) low_a low_b.
 Proof.
-move=> i k /in_free Hi /in_free Hk; rewrite /F_at /shifted_entry /row_0 /row_1.
-rewrite !lookup_cat !lookup_times !toRD !toRM -!lookup_ff //.
-by rewrite (bounded_lookup_sym bounded_a Hi Hk) (bounded_lookup_sym bounded_b Hi Hk).
+have sym low row : bounded_rows nf (ff_block Q row) low ->
+    symmetric_free Q (fun i k => toR (lookup (row i) k) : R).
+  move=> bounded i k /(nthP 0%N)[i' Hi <-] /(nthP 0%N)[k' Hk <-].
+  by rewrite -!lookup_ff // (bounded_lookup_sym bounded Hi Hk).
+have low row low : bounded_rows nf (ff_block Q row) low ->
+    below Q low (fun i k => toR (lookup (row i) k) : R).
+  move=> bounded; split; [exact: bound_times_gt0 bounded | exact: bound_at_ge0 bounded |].
+  move=> z; apply: le_trans (bounded_rows_sound bounded z) _.
+  rewrite le_eqVlt; apply/orP; left; apply/eqP; congr (_ * _).
+  apply: sum_eq => i /(in_free (Q := Q)) Hi; apply: sum_eq => k /(in_free (Q := Q)) Hk.
+  by rewrite lookup_ff.
+by split; [exact: sym bounded_a | exact: sym bounded_b | exact: low bounded_a |
+           exact: low bounded_b].
 Qed.
 
 Lemma F1_symmetric :
   symmetric_on nf (fun i k => toR (lookup (row_1 Q a (free_at i)) (free_at k)) : R).
 Proof.
-move=> i k /in_free Hi /in_free Hk; rewrite /row_1 !lookup_times !toRM -!lookup_ff //.
+move=> i k /(in_free (Q := Q)) Hi /(in_free (Q := Q)) Hk.
+rewrite /row_1 !lookup_times !toRM -!lookup_ff //.
 by rewrite (bounded_lookup_sym bounded_b Hi Hk).
-Qed.
-
-(* q (sigma + lo tau) *)
-Lemma F_below d t lo : toR q * t = toR p + toR q * d -> 0 <= lo -> lo <= t ->
-  bounded_below nf (F_at d) (toR q * (toR (bound_at low_a) / toR (bound_times low_a) +
-                                      lo * (toR (bound_at low_b) / toR (bound_times low_b)))).
-Proof.
-move=> td lo0 lo_t z; have [q0 _ _ _] := expand_parts.
-have [ca0 da0] := (bound_times_gt0 R bounded_a, bound_at_ge0 R bounded_a).
-have [cb0 db0] := (bound_times_gt0 R bounded_b, bound_at_ge0 R bounded_b).
-have := bounded_rows_sound bounded_a z; have := bounded_rows_sound bounded_b z.
-set S := \sum_(k <- fi) _; have S0 : 0 <= S by apply: squares_ge0.
-set form_b := \sum_(i <- fi) _; set form_a := \sum_(i <- fi) _ => below_b below_a.
-have -> : \sum_(i <- fi) \sum_(k <- fi) z i * F_at d i k * z k =
-          toR q * (form_a + t * form_b).
-  rewrite mulrDr !mulr_sumr -big_split; apply: sum_eq => i /in_free Hi /=.
-  rewrite !mulr_sumr -big_split; apply: sum_eq => k /in_free Hk /=.
-  rewrite /F_at (shifted_entryE _ _ td) !lookup_ff // /a_entry /b_entry.
-  by move: (toR _) (toR _) (z i) (z k) (toR q) => *; ring.
-rewrite -mulrA ler_pmul2l // mulrDl; apply: ler_add.
-  by rewrite mulrAC ler_pdivr_mulr // [form_a * _]mulrC.
-apply: (@le_trans _ _ (lo * form_b)).
-  by rewrite -mulrA ler_wpmul2l // mulrAC ler_pdivr_mulr // [form_b * _]mulrC.
-apply: ler_wpmul2r => //.
-by rewrite -(pmulr_rge0 _ cb0); apply: le_trans below_b; rewrite mulr_ge0.
 Qed.
 
 Lemma drift_ge0 : 0 <= toR (drift fam) :> R.
@@ -435,10 +583,10 @@ Qed.
 Lemma drift_bound i : i \in fi ->
   \sum_(k <- fi) `|toR (lookup (row_1 Q a (free_at i)) (free_at k))| <= toR (drift fam) :> R.
 Proof.
-move=> /in_free Hi; have [_ _ _ [_ _ _ ->]] := expand_parts; rewrite /expand_from /=.
+move=> /(in_free (Q := Q)) Hi; have [_ _ _ [_ _ _ ->]] := expand_parts; rewrite /expand_from /=.
 have -> : \sum_(k <- fi) `|toR (lookup (row_1 Q a (free_at i)) (free_at k))| =
           \sum_(k <- fi) `|toR (lookup (nth [::] (ff_block Q (row_1 Q a)) i) k)| :> R.
-  by apply: sum_eq => k /in_free Hk; rewrite lookup_ff.
+  by apply: sum_eq => k /(in_free (Q := Q)) Hk; rewrite lookup_ff.
 apply: le_trans (row_sum_bound (ff_range _ _)) _; rewrite toR_le.
 have : nth [::] (ff_block Q (row_1 Q a)) i \in ff_block Q (row_1 Q a).
   by rewrite mem_nth // size_map.
@@ -448,30 +596,282 @@ case/orP=> [/eqP->|/IH]; move: (foldr _ _ _) (row_sum _) => m y; first by clear;
 by move: (row_sum row) => y'; clear; lia.
 Qed.
 
-(* The exact identity, in integers. *)
-Lemma family_identity d s i j : 0 < s -> bounded_below nf (F_at d) s ->
-  (i < ns)%N -> (j < ns)%N ->
-  toR (anchor_unit a) ^+ 2 * condensed_family d i j =
-  value (series_z fam) d i j -
-  \sum_(k <- fi) value l_series d k i * solve nf (F_at d) (fun k => value r_series d k j) k.
-Proof.
-move=> s0 below Hi Hj; have [q0 u0 _ [sa _ _ ->]] := expand_parts.
-set u := toR (anchor_unit a).
-pose W := value (anchor_right a) d; pose V := value (anchor_left a) d.
-have rE k : k \in fi -> value r_series d k j = residual_r nf (F_at d) (G_at d) u W j k.
-  by move=> /in_free Hk; rewrite /residual_right value_residual // value_fs.
-have lE k : k \in fi -> value l_series d k i = residual_l nf (F_at d) (H_at d) u V i k.
-  by move=> /in_free Hk; rewrite /residual_left value_residual // value_sf.
+(* The residuals and Z of the pencil itself. *)
+Notation A := (a_entry R Q).
+Notation B := (b_entry R Q).
 
-rewrite /condensed_family (condensed_residual s0 (F_symmetric d) below _ _ _ u W V).
-congr (_ - _); last by apply: sum_eq => k Hk; rewrite lE // (solve_ext _ rE).
-rewrite /expand_from /= /center_series value_add !value_scale value_add value_scale.
-have small_h : small Q [:: sf_block Q (row_0 Q a); sf_block Q (row_1 Q a)].
-  by rewrite /small /= !size_map leqnn.
-rewrite !(value_cross (m := nf)) // value_ss // toRM -/u -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r.
-rewrite /approximate -expr2 opprD addrA; congr (_ - _ * _ - _).
-  by apply: sum_eq => k /in_free Hk; rewrite value_sf.
-by apply: sum_eq => k Hk; rewrite rE.
+Lemma minus_one : toR (-1) = -1 :> R.
+Proof. by rewrite -[(-1)%Z]/(Z.opp 1) toRN toR1. Qed.
+
+Lemma own_right d j k : (j < ns)%N -> k \in fi -> r_at Q A B a d j k = value r_series d k j.
+Proof.
+move=> Hj /(in_free (Q := Q)) Hk; rewrite /residual_right value_residual // value_fs //.
+by rewrite minus_one mulN1r.
+Qed.
+
+Lemma own_left d i k : (i < ns)%N -> k \in fi -> l_at Q A B a d i k = value l_series d k i.
+Proof.
+move=> Hi /(in_free (Q := Q)) Hk; rewrite /residual_left value_residual // value_sf //.
+by rewrite minus_one mulN1r.
+Qed.
+
+Lemma own_center d i j : (i < ns)%N -> (j < ns)%N ->
+  z_at Q A B a d i j = value (series_z fam) d i j.
+Proof.
+move=> Hi Hj; have [_ _ _ [sa _ _ ->]] := expand_parts; rewrite /expand_from /= value_center //.
+rewrite minus_one mulN1r opprD addrA /z_at /approximate; congr (_ - _).
+by apply: sum_eq => k Hk; rewrite -own_right.
+Qed.
+
+Lemma nth_norms (L : seq matrix) i : (i < ns)%N ->
+  nth [::] [seq norms L i | i <- si] i = norms L i.
+Proof. by move=> Hi; rewrite (nth_map 0%N) ?size_iota // nth_iota. Qed.
+
+Lemma own_bounds : family_bounds Q A B a fam.
+Proof.
+move=> d t b _ _ db i j Hi Hj; have [_ _ _ [_ sl sr famE]] := expand_parts.
+rewrite own_center // subrr normr0 famE /expand_from /= !nth_norms //; split=> //.
+  by apply: norm_ext (series_norm i sl db) => k Hk; rewrite own_left.
+by apply: norm_ext (series_norm j sr db) => k Hk; rewrite own_right.
 Qed.
 
 End Expand.
+
+(* The pencil is a member of itself. *)
+Lemma prepared_ready (R : rcfType) Q a fam low_a low_b lo hi :
+  prepared Q a fam low_a low_b lo hi ->
+  prepared_member Q (a_entry R Q) (b_entry R Q) a fam low_a low_b lo hi.
+Proof.
+case=> wf expanded ba bb proper; split=> //.
+- exact: ready_parts expanded.
+- exact: own_bounded.
+exact: own_bounds expanded.
+Qed.
+
+(* Members within radii. *)
+Section Radii.
+
+Variables (R : rcfType) (Q : pencil) (A B : nat -> nat -> R) (a : anchor).
+Variable radii : seq sparse_row * seq sparse_row.
+Hypothesis wf : wellformed Q.
+
+Notation p := (anchor_center a).1.
+Notation q := (anchor_center a).2.
+Notation ns := (size (slip Q)).
+Notation nf := (size (free Q)).
+Notation fi := (iota 0 nf).
+Notation free_at k := (nth 0%N (free Q) k).
+Notation slip_at k := (nth 0%N (slip Q) k).
+Notation Rd := (radii_pencil Q radii).
+Notation indices := (iota 0 (order Q)).
+
+Definition within_radii := forall i j, i \in indices -> j \in indices ->
+  `|A i j - a_entry R Q i j| <= a_entry R Rd i j /\ `|B i j - b_entry R Q i j| <= b_entry R Rd i j.
+
+Hypothesis near : within_radii.
+
+Lemma free_in k : k \in fi -> free_at k \in indices.
+Proof. by move=> /(in_free (Q := Q)) Hk; apply: (free_indices wf); apply: mem_nth. Qed.
+
+Lemma slip_in j : (j < ns)%N -> slip_at j \in indices.
+Proof. by move=> Hj; apply/slip_indices/mem_nth. Qed.
+
+(* A sum of radii, taken from the diagonal. *)
+Lemma lookup_lowered rows rad i k : (i < size rows)%N ->
+  lookup (nth [::] (lowered rows rad) i) k =
+  ((if i == k then - row_sum (nth [::] rad i) else 0) + lookup (nth [::] rows i) k)%Z.
+Proof. by move=> Hi; rewrite (nth_map 0%N) ?size_iota // nth_iota //= add0n; case: eqP. Qed.
+
+Lemma lowered_below low (row : pencil -> nat -> sparse_row) (M : nat -> nat -> R) :
+  bounded_rows nf (lowered (ff_block Q (row Q)) (ff_block Q (row Rd))) low ->
+  symmetric_free Q M ->
+  (forall i j, i \in indices -> j \in indices ->
+     `|M i j - toR (lookup (row Q i) j)| <= toR (lookup (row Rd i) j)) ->
+  below Q low M.
+Proof.
+move=> bounded symM close; split.
+- exact: bound_times_gt0 bounded.
+- exact: bound_at_ge0 bounded.
+have c0 := bound_times_gt0 R bounded.
+move=> z; apply: le_trans (bounded_rows_sound bounded z) _; rewrite ler_pmul2l //.
+pose S i k : R := toR (lookup (row Q (free_at i)) (free_at k)).
+pose m i k := M (free_at i) (free_at k) - S i k.
+pose rho i : R := toR (row_sum (nth [::] (ff_block Q (row Rd)) i)).
+have rowE i : i \in fi -> \sum_(k <- fi) z i *
+    toR (lookup (nth [::] (lowered (ff_block Q (row Q)) (ff_block Q (row Rd))) i) k) * z k =
+    \sum_(k <- fi) z i * S i k * z k - rho i * z i ^+ 2.
+  move=> Hi; have lt_i := in_free Hi; rewrite -[- _]mul1r.
+  rewrite (bigD1_seq i) ?iota_uniq //= [in RHS](bigD1_seq i) ?iota_uniq //=.
+  rewrite !lookup_lowered ?size_map // eqxx lookup_ff // toRD toRN -/(rho i) -/(S i i).
+  rewrite mul1r addrAC; congr (_ + _); first by ring.
+  rewrite big_seq_cond [RHS]big_seq_cond; apply: eq_bigr => k /andP[/(in_free (Q := Q)) lt_k].
+  rewrite eq_sym => /negbTE ik; rewrite !lookup_lowered ?size_map // ik toRD toR0 add0r.
+  by rewrite lookup_ff.
+have m_sym i k : i \in fi -> k \in fi -> m k i = m i k.
+  move=> /(in_free (Q := Q)) Hi /(in_free (Q := Q)) Hk.
+  rewrite /m (symM (free_at k) (free_at i)) ?mem_nth //; congr (_ - _).
+  have := bounded_lookup_sym bounded Hk Hi; rewrite !lookup_lowered ?size_map // eq_sym.
+  by case: eqP => [->//|_]; rewrite !Z.add_0_l !lookup_ff // /S => ->.
+have m_le i k : i \in fi -> k \in fi ->
+    `|m i k| <= `|toR (lookup (nth [::] (ff_block Rd (row Rd)) i) k) : R|.
+  move=> Hi Hk; rewrite lookup_ff ?(in_free (Q := Q)) //.
+  by apply: le_trans (ler_norm _); apply: close; apply: free_in.
+have sums i : i \in fi -> \sum_(k <- fi) (`|m i k| + `|m k i|) <= rho i *+ 2.
+  move=> Hi; apply: (@le_trans _ _ ((\sum_(k <- fi) `|m i k|) *+ 2)).
+    by rewrite -sumrMnl; apply: sum_le => k Hk; rewrite (m_sym i k) // mulr2n.
+  rewrite ler_muln2r /=; apply: le_trans (row_sum_bound R (ff_range Rd (row Rd) i)).
+  by apply: sum_le => k Hk; apply: m_le.
+have form : `|\sum_(i <- fi) \sum_(k <- fi) z i * m i k * z k| <= \sum_(i <- fi) rho i * z i ^+ 2.
+  suff : `|\sum_(i <- fi) \sum_(k <- fi) z i * m i k * z k| *+ 2 <=
+      (\sum_(i <- fi) rho i * z i ^+ 2) *+ 2 by rewrite ler_muln2r.
+  apply: le_trans (form_by_sums _ _ _) _; rewrite -sumrMnl; apply: sum_le => i Hi; rewrite -mulrnAl mulrC ler_wpmul2r ?sqr_ge0 //.
+  exact: sums.
+rewrite (sum_eq rowE) sumrB ler_subl_addr -ler_subl_addl; apply: le_trans form.
+rewrite -normrN; apply: le_trans (ler_norm _); rewrite -sumrB -sumrN.
+rewrite le_eqVlt; apply/orP; left; apply/eqP; apply: eq_bigr => i _; rewrite -sumrB -sumrN.
+by apply: eq_bigr => k _; rewrite /m; move: (M _ _) (S _ _) => *; ring.
+Qed.
+
+Section Bounds.
+
+Hypotheses (q0 : 0 < toR q :> R) (u0 : 0 < toR (anchor_unit a) :> R).
+Variables (d t b : R).
+Hypotheses (td : toR q * t = toR p + toR q * d) (t0 : 0 <= t) (db : `|d| <= b).
+
+Notation own := (shifted_entry (a_entry R Q) (b_entry R Q) a).
+Notation far := (shifted_entry (a_entry R Rd) (b_entry R Rd) a).
+Notation its := (shifted_entry A B a).
+Notation u := (toR (anchor_unit a) : R).
+Notation a' := (absolute_anchor a).
+
+Lemma shifted_near i j : i \in indices -> j \in indices -> `|its d i j - own d i j| <= far b i j.
+Proof.
+move=> Hi Hj; have [na nb] := near Hi Hj; rewrite !(shifted_entryE _ _ _ _ td) -mulrBr normrM.
+rewrite (gtr0_norm q0); apply: (@le_trans _ _ (toR q * (a_entry R Rd i j + t * b_entry R Rd i j))).
+  rewrite ler_pmul2l // opprD addrACA -mulrBr (le_trans (ler_norm_add _ _)) // ler_add //.
+  by rewrite normrM (ger0_norm t0) ler_wpmul2l.
+have rb0 : 0 <= b_entry R Rd i j by apply: le_trans nb.
+rewrite mulrDr mulrA td /shifted_entry mulrDl !addrA ler_add2l.
+rewrite -mulrA mulrCA ler_wpmul2r ?mulr_ge0 ?(ltW q0) //.
+exact: le_trans (ler_norm d) db.
+Qed.
+
+Lemma value_absolute L i j : `|value L d i j| <= value (absolute L) b i j.
+Proof.
+have b0 : 0 <= b by apply: le_trans db.
+elim: L => [|M L IH]; first by rewrite value_nil normr0.
+rewrite /absolute /= -/(absolute L) !value_cons (le_trans (ler_norm_add _ _)) // ler_add //.
+  rewrite -toR_abs (_ : Z.abs (entry M i j) = entry [seq [seq Z.abs c | c <- row] | row <- M] i j) //.
+  rewrite /entry; have [lt_i|ge_i] := ltnP i (size M).
+    rewrite (nth_map [::]) //; have [lt_j|ge_j] := ltnP j (size (nth [::] M i)).
+      by rewrite (nth_map 0%Z).
+    by rewrite !(nth_default 0%Z) ?size_map.
+  by rewrite !(nth_default [::]) ?size_map // nth_nil.
+by rewrite normrM ler_pmul.
+Qed.
+
+Lemma combined (l : seq nat) (f g F G : nat -> R) :
+  (forall k, k \in l -> `|f k| <= F k) -> (forall k, k \in l -> `|g k| <= G k) ->
+  `|\sum_(k <- l) f k * g k| <= \sum_(k <- l) F k * G k.
+Proof.
+move=> fF gG; apply: le_trans (sum_norm _ _) _; apply: sum_le => k Hk.
+by rewrite normrM ler_pmul ?fF ?gG.
+Qed.
+
+Lemma small_absolute L : small Q L -> small Rd (absolute L).
+Proof. by move/allP=> sL; apply/allP => _ /mapP[M /sL + ->]; rewrite size_map. Qed.
+
+Lemma right_near j : (j < ns)%N -> forall k, k \in fi ->
+  `|r_at Q A B a d j k - r_at Q (a_entry R Q) (b_entry R Q) a d j k| <=
+  value (residual_right Rd a' 1) b k j.
+Proof.
+move=> Hj k Hk; have lt_k := in_free Hk; have Fk := free_in Hk; have Sj := slip_in Hj.
+rewrite (value_residual (Q := Rd) a' wf) // (value_fs (Q := Rd)) // toR1 mul1r.
+have -> : r_at Q A B a d j k - r_at Q (a_entry R Q) (b_entry R Q) a d j k =
+    u * (G_at Q A B a d k j - G_at Q (a_entry R Q) (b_entry R Q) a d k j) -
+    \sum_(m <- fi) (F_at Q A B a d k m - F_at Q (a_entry R Q) (b_entry R Q) a d k m) *
+      right_at a d m j.
+  rewrite /r_at /residual_r mulrBr; under [in RHS]eq_bigr do rewrite mulrBl.
+  by rewrite sumrB !opprD !opprK addrACA.
+rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+  by rewrite normrM (gtr0_norm u0) ler_pmul2l // shifted_near.
+apply: combined => m Hm; first by apply: shifted_near => //; apply: free_in.
+exact: value_absolute.
+Qed.
+
+Lemma left_near i : (i < ns)%N -> forall k, k \in fi ->
+  `|l_at Q A B a d i k - l_at Q (a_entry R Q) (b_entry R Q) a d i k| <=
+  value (residual_left Rd a' 1) b k i.
+Proof.
+move=> Hi k Hk; have lt_k := in_free Hk; have Fk := free_in Hk; have Si := slip_in Hi.
+rewrite (value_residual (Q := Rd) a' wf) // (value_sf (Q := Rd)) // toR1 mul1r.
+have -> : l_at Q A B a d i k - l_at Q (a_entry R Q) (b_entry R Q) a d i k =
+    u * (H_at Q A B a d i k - H_at Q (a_entry R Q) (b_entry R Q) a d i k) -
+    \sum_(m <- fi) (F_at Q A B a d k m - F_at Q (a_entry R Q) (b_entry R Q) a d k m) *
+      left_at a d m i.
+  rewrite /l_at /residual_l mulrBr; under [in RHS]eq_bigr do rewrite mulrBl.
+  by rewrite sumrB !opprD !opprK addrACA.
+rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+  by rewrite normrM (gtr0_norm u0) ler_pmul2l // shifted_near.
+apply: combined => m Hm; first by apply: shifted_near => //; apply: free_in.
+exact: value_absolute.
+Qed.
+
+Lemma center_near i j : small Q (anchor_left a) -> (i < ns)%N -> (j < ns)%N ->
+  `|z_at Q A B a d i j - z_at Q (a_entry R Q) (b_entry R Q) a d i j| <=
+  value (center_series Rd a' 1 (residual_right Rd a' 1)) b i j.
+Proof.
+move=> sa Hi Hj; have [Si Sj] := (slip_in Hi, slip_in Hj).
+rewrite (@value_center R Rd a') //; last exact: small_absolute.
+rewrite toR1 mul1r.
+have -> : z_at Q A B a d i j - z_at Q (a_entry R Q) (b_entry R Q) a d i j =
+    u ^+ 2 * (D_at Q A B a d i j - D_at Q (a_entry R Q) (b_entry R Q) a d i j) -
+    (u * (\sum_(k <- fi) (H_at Q A B a d i k - H_at Q (a_entry R Q) (b_entry R Q) a d i k) *
+           right_at a d k j) +
+     \sum_(k <- fi) left_at a d k i *
+       (r_at Q A B a d j k - r_at Q (a_entry R Q) (b_entry R Q) a d j k)).
+  rewrite /z_at /approximate mulrBr; under [in RHS]eq_bigr do rewrite mulrBl.
+  rewrite sumrB; under [X in _ = _ - (_ + X)]eq_bigr do rewrite mulrBr.
+  rewrite sumrB /r_at; set h := \sum_(k <- fi) H_at Q A B a d i k * _.
+  set h' := \sum_(k <- fi) H_at Q (a_entry R Q) _ a d i k * _.
+  set v := \sum_(k <- fi) _ * residual_r _ (F_at Q A B a d) _ _ _ _ k.
+  set v' := \sum_(k <- fi) _ * residual_r _ _ _ _ _ _ k.
+  by move: h h' v v' => *; ring.
+rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+  by rewrite normrM normrX (gtr0_norm u0) ler_pmul2l ?exprn_gt0 // shifted_near.
+rewrite (le_trans (ler_norm_add _ _)) // ler_add //.
+  rewrite normrM (gtr0_norm u0) ler_pmul2l //; apply: combined => k Hk.
+    by apply: shifted_near => //; apply: free_in.
+  exact: value_absolute.
+apply: combined => k Hk; first exact: value_absolute.
+exact: right_near.
+Qed.
+
+End Bounds.
+
+Theorem member_ready fam low_a low_b lo hi : expand_member Q (Some radii) a = Some fam ->
+  symmetric_free Q A -> symmetric_free Q B ->
+  bounded_rows nf (lowered_block Q row_a (Some radii)) low_a ->
+  bounded_rows nf (lowered_block Q row_b (Some radii)) low_b ->
+  proper_interval a low_a low_b lo hi -> prepared_member Q A B a fam low_a low_b lo hi.
+Proof.
+rewrite /expand_member; case ex: (expand Q a) => [own|//] wide symA symB ba bb proper.
+have [q0 u0 s0 [sa _ _ _]] := expand_parts R ex; split=> //.
+  by split=> //; [apply: lowered_below ba _ _ | apply: lowered_below bb _ _] => // i j Hi Hj;
+     have [] := near Hi Hj.
+move=> d t b td t0 db i j Hi Hj; move: wide; rewrite /widened_family.
+case: ifP => // /andP[sl sr] [<-] /=; have [l_own r_own z_own] := own_bounds wf ex td t0 db Hi Hj.
+have b0 : `|b| <= b by rewrite ger0_norm // (le_trans _ db).
+have added (n : seq polynomial) (L : seq matrix) k : (k < ns)%N ->
+    nth [::] [seq add_poly (nth [::] n i) (norms L i) | i <- iota 0 ns] k =
+    add_poly (nth [::] n k) (norms L k).
+  by move=> Hk; rewrite (nth_map 0%N) ?size_iota // nth_iota.
+rewrite !added // !eval_add; split.
+- have wide := norm_dominated (left_near q0 u0 td t0 db Hi) (series_norm i sl b0).
+  by apply: norm_ext (norm_add l_own wide) => k _; rewrite addrC subrK.
+- have wide := norm_dominated (right_near q0 u0 td t0 db Hj) (series_norm j sr b0).
+  by apply: norm_ext (norm_add r_own wide) => k _; rewrite addrC subrK.
+rewrite -(own_center wf ex) //; exact: (center_near q0 u0 td t0 db).
+Qed.
+
+End Radii.

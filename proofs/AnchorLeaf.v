@@ -92,20 +92,23 @@ Qed.
 
 End Rounding.
 
+(* A member A + t B of a pencil over an interval. *)
 Section Local.
 
-Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
-Variables (lo hi : point) (grain : Z).
-Hypotheses (ready : prepared Q a fam low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
+Variables (R : rcfType) (Q : pencil) (A B : nat -> nat -> R) (a : anchor) (fam : anchor_family).
+Variables (low_a low_b : form_bound) (lo hi : point) (grain : Z).
+Hypothesis ready : prepared_member Q A B a fam low_a low_b lo hi.
+Hypothesis grain0 : (0 <? grain)%Z.
 Notation ns := (size (slip Q)).
 Notation nf := (size (free Q)).
 Notation fi := (iota 0 nf).
 Notation si := (iota 0 ns).
+Notation y := (member_reaction (order Q) A B).
 
 Let wf : wellformed Q := let: And5 w _ _ _ _ := ready in w.
-Let expanded : expand Q a = Some fam := let: And5 _ e _ _ _ := ready in e.
-Let bounded_a : bounded_rows nf (ff_block Q (row_a Q)) low_a := let: And5 _ _ b _ _ := ready in b.
-Let bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b := let: And5 _ _ _ b _ := ready in b.
+Let parts := let: And5 _ p _ _ _ := ready in p.
+Let bounded : free_bounded Q A B low_a low_b := let: And5 _ _ b _ _ := ready in b.
+Let near : family_bounds Q A B a fam := let: And5 _ _ _ n _ := ready in n.
 Let proper : proper_interval a low_a low_b lo hi := let: And5 _ _ _ _ p := ready in p.
 
 Notation p := (anchor_center a).1.
@@ -123,7 +126,7 @@ Lemma proper_parts :
 Proof. by case/and5P: proper => *; split; rewrite ?toR_ge0 ?toR_gt0. Qed.
 
 Lemma q_gt0 : 0 < toR q :> R.
-Proof. by have [] := expand_parts R expanded. Qed.
+Proof. by have [] := parts. Qed.
 
 Lemma uy_gt0 : 0 < toR uy :> R.
 Proof. by have [_ l2 h2 _ _] := proper_parts; rewrite !toRM !mulr_gt0 // q_gt0. Qed.
@@ -133,9 +136,12 @@ Proof. by have [_ _ _ w0 _] := proper_parts; rewrite toRM mulr_gt0 // q_gt0. Qed
 
 Lemma bd_gt0 : 0 < toR bd :> R.
 Proof.
-have [_ l2 _ _ _] := proper_parts.
-by rewrite !toRM !mulr_gt0 // ?(bound_times_gt0 R bounded_a) ?(bound_times_gt0 R bounded_b).
+have [_ l2 _ _ _] := proper_parts; have [_ _ [ca0 _ _] [cb0 _ _]] := bounded.
+by rewrite !toRM !mulr_gt0.
 Qed.
+
+Lemma free_symmetric d : symmetric_on nf (F_at Q A B a d).
+Proof. by have [? ? _ _] := bounded; apply: F_symmetric. Qed.
 
 (* t and d at u. *)
 Definition t_of (u : R) := (toR (lo.1 * hi.2)%Z + u * toR width) / toR (lo.2 * hi.2)%Z.
@@ -177,12 +183,11 @@ have [l1 l2 _ _ _] := proper_parts; apply: le_trans lo_le_t.
 by rewrite divr_ge0 // ltW.
 Qed.
 
-Lemma below_at_u : bounded_below nf (F_at Q a (d_of u)) s_low.
+Lemma below_at_u : bounded_below nf (F_at Q A B a (d_of u)) s_low.
 Proof.
-have [l1 l2 _ _ _] := proper_parts.
-have ca := bound_times_gt0 R bounded_a; have cb := bound_times_gt0 R bounded_b.
+have [l1 l2 _ _ _] := proper_parts; have [_ _ [ca _ _] [cb _ _]] := bounded.
 have lo0 : 0 <= toR lo.1 / toR lo.2 :> R by rewrite divr_ge0 // ltW.
-have := F_below wf expanded bounded_a bounded_b (t_ofE u) lo0 lo_le_t.
+have := F_below bounded q_gt0 (t_ofE u) lo0 lo_le_t.
 congr (bounded_below _ _ _); rewrite /s_low /bound_n /bound_d !toRM !toRD !toRM.
 have [/lt0r_neq0 l2' /lt0r_neq0 ca' /lt0r_neq0 cb'] := And3 l2 ca cb.
 by field; rewrite l2' ca' cb'.
@@ -211,55 +216,26 @@ End AtU.
 Lemma reachE : toR (reach a lo hi) = toR uy * b_reach.
 Proof. by rewrite /b_reach mulrC divfK // gt_eqF // uy_gt0. Qed.
 
-(* Bounds of norms over the interval. *)
-Notation l_series := (residual_left Q a).
-Notation r_series := (residual_right Q a).
+(* Bounds of norms over the interval, and of Z of the member. *)
+Definition nl i : R := eval (nth [::] (left_norms fam) i) b_reach.
+Definition nr j : R := eval (nth [::] (right_norms fam) j) b_reach.
+Definition far i j : R := eval (poly_of (spread_z fam) i j) b_reach.
 
-Definition nl i : R := eval (norms l_series i) b_reach.
-Definition nr j : R := eval (norms r_series j) b_reach.
-Definition dl i : R := eval (derivative (norms l_series i)) b_reach.
-Definition dr j : R := eval (derivative (norms r_series j)) b_reach.
+Definition remainder_at u i j := \sum_(k <- fi) l_at Q A B a (d_of u) i k *
+  solve nf (F_at Q A B a (d_of u)) (r_at Q A B a (d_of u) j) k.
 
-Definition remainder_at u i j := \sum_(k <- fi) value l_series (d_of u) k i *
-  solve nf (F_at Q a (d_of u)) (fun k => value r_series (d_of u) k j) k.
-
-Lemma small_l : all (fun M => size M <= nf)%N l_series.
-Proof. by have [_ _ _ []] := expand_parts R expanded. Qed.
-
-Lemma small_r : all (fun M => size M <= nf)%N r_series.
-Proof. by have [_ _ _ []] := expand_parts R expanded. Qed.
-
-Lemma remainder_bound u i j : 0 <= u -> u <= 1 ->
-  `|remainder_at u i j| <= nl i * nr j / s_low.
+Lemma bounds_at u i j : 0 <= u -> u <= 1 -> (i < ns)%N -> (j < ns)%N ->
+  [/\ norm_le fi (l_at Q A B a (d_of u) i) (nl i), norm_le fi (r_at Q A B a (d_of u) j) (nr j) &
+      `|z_at Q A B a (d_of u) i j - value (series_z fam) (d_of u) i j| <= far i j].
 Proof.
-move=> u0 u1; rewrite -mulrA; apply: dot_bound.
-  exact: (series_norm i small_l (d_bounded u0 u1)).
-apply: (solve_norm s_low_gt0 (below_at_u u0)).
-exact: (series_norm j small_r (d_bounded u0 u1)).
+move=> u0 u1 Hi Hj; exact: (near (t_ofE u) (t_of_ge0 u0) (d_bounded u0 u1) Hi Hj).
 Qed.
 
-Lemma remainder_quotient u u' i j : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
-  exists2 x, remainder_at u i j - remainder_at u' i j = (u - u') * x &
-    `|x| <= toR ext / toR uy *
-      ((dl i * nr j + nl i * dr j) / s_low + nl i * nr j * toR (drift fam) / s_low ^+ 2).
+Lemma remainder_bound u i j : 0 <= u -> u <= 1 -> (i < ns)%N -> (j < ns)%N ->
+  `|remainder_at u i j| <= nl i * nr j / s_low.
 Proof.
-move=> u0 u1 v0 v1.
-have diff m k : m \in fi -> k \in fi -> F_at Q a (d_of u) m k - F_at Q a (d_of u') m k =
-    (d_of u - d_of u') * toR (lookup (row_1 Q a (nth 0%N (free Q) m)) (nth 0%N (free Q) k)).
-  by move=> _ _; rewrite /F_at /shifted_entry; move: (toR _) (toR _) => *; ring.
-have [x xE x_le] := remainder_difference s_low_gt0 (below_at_u u0) (below_at_u v0)
-  (F_symmetric a wf bounded_a bounded_b (d_of u')) (F1_symmetric R a wf bounded_b) diff
-  (fun m Hm => drift_bound R wf expanded Hm) (drift_ge0 R expanded)
-  (fun k => slopeE (poly_of l_series k i) (d_of u) (d_of u'))
-  (fun k => slopeE (poly_of r_series k j) (d_of u) (d_of u'))
-  (series_norm i small_l (d_bounded v0 v1)) (series_norm j small_r (d_bounded u0 u1))
-  (series_difference i small_l (d_bounded u0 u1) (d_bounded v0 v1))
-  (series_difference j small_r (d_bounded u0 u1) (d_bounded v0 v1)).
-exists (toR ext / toR uy * x).
-  rewrite /remainder_at xE mulrA; congr (_ * _); rewrite /d_of.
-  by rewrite -mulrBl opprD addrACA subrr add0r -mulrBl mulrA.
-by rewrite normrM ger0_norm ?divr_ge0 ?(ltW ext_gt0) ?(ltW uy_gt0) // ler_wpmul2l //
-  divr_ge0 ?(ltW ext_gt0) ?(ltW uy_gt0).
+move=> u0 u1 Hi Hj; have [l_le r_le _] := bounds_at u0 u1 Hi Hj.
+by rewrite -mulrA; apply: dot_bound (solve_norm s_low_gt0 (below_at_u u0) r_le).
 Qed.
 
 (* The same with the integers of the checker. *)
@@ -274,46 +250,38 @@ Qed.
 
 Lemma remainder_radius_bound power i j : 0 < toR power :> R ->
   toR power * (nl i * nr j / s_low) <=
-  toR (remainder_radius a low_a low_b lo power (at_reach (norms l_series i))
-         (at_reach (norms r_series j))).
+  toR (remainder_radius a low_a low_b lo power (at_reach (nth [::] (left_norms fam) i))
+         (at_reach (nth [::] (right_norms fam) j))).
 Proof.
 move=> p0; have [_ _ _ _ b0] := proper_parts; have d0 := bd_gt0.
-have [lE l0] := at_reachE (norms l_series i); have [rE r0] := at_reachE (norms r_series j).
+have [lE l0] := at_reachE (nth [::] (left_norms fam) i).
+have [rE r0] := at_reachE (nth [::] (right_norms fam) j).
 exact: radius_le.
 Qed.
 
-Lemma remainder_slope_bound power i j : 0 < toR power :> R ->
-  toR power * (toR ext / toR uy *
-      ((dl i * nr j + nl i * dr j) / s_low + nl i * nr j * toR (drift fam) / s_low ^+ 2)) <=
-  toR (remainder_slope a low_a low_b fam lo hi power
-         (at_reach (norms l_series i)) (at_reach (norms r_series j))
-         (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j)))).
+Lemma far_bound power i j : 0 < toR power :> R -> toR power * far i j <=
+  toR (divide_up (power * (at_reach (poly_of (spread_z fam) i j)).1)
+         (at_reach (poly_of (spread_z fam) i j)).2).
 Proof.
-move=> p0; have [_ _ _ _ b0] := proper_parts; have d0 := bd_gt0; have y0 := uy_gt0.
-have [lE l0] := at_reachE (norms l_series i); have [rE r0] := at_reachE (norms r_series j).
-have [dlE dl0] := at_reachE (derivative (norms l_series i)).
-have [drE dr0] := at_reachE (derivative (norms r_series j)).
-rewrite /remainder_slope !toRD; apply: (@le_trans _ _
-  (toR power * (toR ext / toR uy) * (dl i * nr j / s_low) +
-   toR power * (toR ext / toR uy) * (nl i * dr j / s_low) +
-   toR power * (toR ext / toR uy) * (nl i * nr j * toR (drift fam) / s_low ^+ 2))).
-  by rewrite -!mulrDr -mulrDl mulrA.
-by apply: ler_add; first apply: ler_add; [apply: slope_le | apply: slope_le | apply: square_le].
+move=> p0; have [eE e0] := at_reachE (poly_of (spread_z fam) i j).
+by apply: divide_up_le => //; rewrite toRM eE mulrCA mulrC mulfK // gt_eqF.
 Qed.
 
 (* The exact entries, multiplied by 4, by the power of the substitution and by u^2. *)
 Notation u2 := (toR (anchor_unit a) ^+ 2 : R).
 Definition power_z : Z := (substituted off ext uy (poly_of (series_z fam) 0 0)).2.
 
-Definition raw u i j := 4%:R * toR power_z * (u2 * condensed_family Q a (d_of u) i j).
+Definition raw u i j := 4%:R * toR power_z * (u2 * condensed_family Q A B a (d_of u) i j).
 
 Definition coefficients i j : polynomial :=
   (substituted off ext uy (poly_of (series_z fam) i j)).1.
 
 Definition exact_entry slopes i j : local_entry :=
   entry_of a low_a low_b fam lo hi slopes (poly_of (series_z fam) i j)
-    (at_reach (norms l_series i)) (at_reach (norms r_series j))
-    (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j))).
+    (at_reach (nth [::] (left_norms fam) i)) (at_reach (nth [::] (right_norms fam) j))
+    (at_reach (derivative (nth [::] (left_norms fam) i)))
+    (at_reach (derivative (nth [::] (right_norms fam) j)))
+    (at_reach (poly_of (spread_z fam) i j)).
 
 Lemma power_same i j :
   (substituted off ext uy (poly_of (series_z fam) i j)).2 = power_z.
@@ -326,13 +294,16 @@ Lemma four z : toR (4 * z)%Z = 4%:R * toR z :> R.
 Proof. by rewrite toRM. Qed.
 
 Definition entry_radius i j : Z :=
-  remainder_radius a low_a low_b lo power_z (at_reach (norms l_series i))
-    (at_reach (norms r_series j)).
+  (divide_up (power_z * (at_reach (poly_of (spread_z fam) i j)).1)
+     (at_reach (poly_of (spread_z fam) i j)).2 +
+   remainder_radius a low_a low_b lo power_z (at_reach (nth [::] (left_norms fam) i))
+     (at_reach (nth [::] (right_norms fam) j)))%Z.
 
 Definition entry_slope i j : Z :=
   remainder_slope a low_a low_b fam lo hi power_z
-    (at_reach (norms l_series i)) (at_reach (norms r_series j))
-    (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j))).
+    (at_reach (nth [::] (left_norms fam) i)) (at_reach (nth [::] (right_norms fam) j))
+    (at_reach (derivative (nth [::] (left_norms fam) i)))
+    (at_reach (derivative (nth [::] (right_norms fam) j))).
 
 Section Parts.
 
@@ -354,51 +325,37 @@ Proof. by rewrite part_rb /exact_entry /entry_of power_same. Qed.
 
 End Parts.
 
-Lemma rawE u i j : 0 <= u -> (i < ns)%N -> (j < ns)%N ->
-  raw u i j = 4%:R * eval (coefficients i j) u - 4%:R * (toR power_z * remainder_at u i j).
+Lemma rawE u i j : 0 <= u ->
+  raw u i j = 4%:R * (toR power_z * (z_at Q A B a (d_of u) i j - remainder_at u i j)).
 Proof.
-move=> u0 Hi Hj; rewrite /raw (family_identity wf expanded bounded_a bounded_b s_low_gt0) //;
-  last exact: below_at_u.
-rewrite (substitutedE _ (d_ofE u)) power_same -/(value _ _ _ _) -/(remainder_at u i j).
-by rewrite mulrBr !mulrA.
+move=> u0; rewrite /raw (condensed_residual s_low_gt0 (free_symmetric (d_of u)) (below_at_u u0)
+  _ _ _ (toR (anchor_unit a)) (right_at a (d_of u)) (left_at a (d_of u))).
+by rewrite mulrA.
 Qed.
+
+Lemma coefficientsE u i j :
+  eval (coefficients i j) u = toR power_z * value (series_z fam) (d_of u) i j.
+Proof. by rewrite (substitutedE _ (d_ofE u)) power_same. Qed.
 
 Lemma raw_line slopes u i j : 0 <= u -> u <= 1 -> (i < ns)%N -> (j < ns)%N ->
   let e := exact_entry slopes i j in
   `|raw u i j - (toR (local_a e) + u * toR (local_b e))| <= toR (local_ra e) - toR (local_rb e).
 Proof.
 move=> u0 u1 Hi Hj; cbv zeta; rewrite part_a part_b part_ra rawE // !toRD addrK !four.
-set c := coefficients i j; set x := eval c u; set y := toR power_z * _.
-have -> : 4%:R * x - 4%:R * y - (4%:R * toR (constant_of c) + u * (4%:R * toR (chord_of c))) =
-          (x - (toR (constant_of c) + u * toR (chord_of c))) *+ 4 - y *+ 4 by ring.
-rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+set c := coefficients i j; have [_ _ z_le] := bounds_at u0 u1 Hi Hj.
+set z := z_at Q A B a _ i j in z_le *; set e := value _ _ i j in z_le.
+have -> : 4%:R * (toR power_z * (z - remainder_at u i j)) -
+    (4%:R * toR (constant_of c) + u * (4%:R * toR (chord_of c))) =
+    (eval c u - (toR (constant_of c) + u * toR (chord_of c))) *+ 4 +
+    (toR power_z * (z - e) - toR power_z * remainder_at u i j) *+ 4.
+  by rewrite coefficientsE -/e; move: (remainder_at _ _ _) (toR (chord_of c)) => *; ring.
+rewrite (le_trans (ler_norm_add _ _)) // ler_add //.
   by rewrite normrMn; apply: near_chord_poly.
-rewrite normrMn mulr_natl ler_muln2r /= /y normrM (gtr0_norm power_gt0).
+rewrite normrMn mulr_natl ler_muln2r /= /entry_radius toRD (le_trans (ler_norm_sub _ _)) //.
+rewrite !normrM (gtr0_norm power_gt0) ler_add //.
+  by apply: le_trans (far_bound _ _ power_gt0); rewrite ler_pmul2l ?power_gt0.
 apply: le_trans (remainder_radius_bound _ _ power_gt0).
 by rewrite ler_pmul2l ?power_gt0 // remainder_bound.
-Qed.
-
-Lemma raw_chord u u' i j : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 -> (i < ns)%N -> (j < ns)%N ->
-  let e := exact_entry true i j in
-  exists2 x, raw u i j - raw u' i j = (u - u') * (toR (local_b e) + x) &
-    `|x| <= toR (local_rb e).
-Proof.
-move=> u0 u1 v0 v1 Hi Hj; cbv zeta; rewrite part_b part_rb !rawE // toRD !four.
-rewrite [toR (8 * _)%Z]toRM -[toR 8]/(8%:R : R); set c := coefficients i j.
-have [x xE x_le] := chord_difference c u0 u1 v0 v1.
-have [y yE y_le] := remainder_quotient i j u0 u1 v0 v1.
-exists (4%:R * x - 4%:R * (toR power_z * y)).
-  move: xE yE; set a1 := eval c u; set a2 := eval c u'.
-  set b1 := remainder_at u i j; set b2 := remainder_at u' i j => xE yE.
-  have -> : 4%:R * a1 - 4%:R * (toR power_z * b1) - (4%:R * a2 - 4%:R * (toR power_z * b2)) =
-            4%:R * (a1 - a2) - 4%:R * toR power_z * (b1 - b2) by ring.
-  by rewrite xE yE; ring.
-rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
-  rewrite normrM ger0_norm ?ler0n // (_ : 8%:R = 4%:R * 2%:R :> R); last by ring.
-  by rewrite -mulrA ler_pmul2l ?ltr0n //; apply: le_trans x_le _; rewrite toRM.
-rewrite normrM ger0_norm ?ler0n // ler_pmul2l ?ltr0n // normrM (gtr0_norm power_gt0).
-apply: le_trans (remainder_slope_bound _ _ power_gt0).
-by rewrite ler_pmul2l ?power_gt0.
 Qed.
 
 (* The family of the local pencil. *)
@@ -408,88 +365,53 @@ Definition local_family u i j := scale_at i * raw u i j.
 Notation pencil_for := (local_pencil ns a low_a low_b fam lo hi).
 
 Lemma scale_gt0_ i : (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R.
-Proof. by have [_ _ s0 _] := expand_parts R expanded; apply: s0. Qed.
+Proof. by have [_ _ s0] := parts; apply: s0. Qed.
 
 Lemma local_entriesE slopes i j (f : local_entry -> Z) : (i < ns)%N -> (j < ns)%N ->
   entry [seq [seq f e | e <- row] | row <- local_entries ns a low_a low_b fam lo hi slopes grain]
     i j = f (rounded grain (nth 0%Z (anchor_scale a) i) (exact_entry slopes i j)).
 Proof.
-move=> Hi Hj; have [_ _ _ [_ _ _ famE]] := expand_parts R expanded.
-have nthE (T : Type) (d : T) (g : polynomial -> T) (L : seq matrix) k : (k < ns)%N ->
-    nth d [seq g n | n <- [seq norms L i | i <- si]] k = g (norms L k).
-  by move=> Hk; rewrite -map_comp (nth_map 0%N) ?size_iota // nth_iota.
+move=> Hi Hj; pose at_zero := homogeneous (reach a lo hi) uy.
+have nthE (g : polynomial -> polynomial) (L : seq polynomial) k : g [::] = [::] ->
+    nth (0%Z, 1%Z) [seq at_zero (g n) | n <- L] k = at_zero (g (nth [::] L k)).
+  move=> g0; have [l|l] := ltnP k (size L); first by rewrite (nth_map [::]).
+  by rewrite !nth_default ?size_map // g0.
 rewrite /entry /local_entries (nth_map [::]) ?size_map ?size_iota //.
 rewrite (nth_map 0%N) ?size_iota // (nth_map (LocalEntry 0 0 0 0)) ?size_map ?size_iota //.
 rewrite (nth_map 0%N) ?size_iota // !nth_iota // !add0n; congr (f (rounded _ _ _)).
-by rewrite /exact_entry famE /expand_from /= !nthE.
+by rewrite /exact_entry !(nthE id) // !(nthE derivative).
 Qed.
 
 Lemma in_local i slopes : i \in indices (pencil_for slopes grain) -> (i < ns)%N.
 Proof. by rewrite mem_iota. Qed.
 
 (* A pencil through given values is enclosed if its entries are near. *)
-Lemma local_encloses slopes (A B : nat -> nat -> R) :
+Lemma local_encloses slopes (A' B' : nat -> nat -> R) :
   (forall i j, (i < ns)%N -> (j < ns)%N ->
      let e := exact_entry slopes i j in
-     `|A i j - toR (local_a e)| <= toR (local_ra e) /\
-     `|B i j - toR (local_b e)| <= toR (local_rb e)) ->
+     `|A' i j - toR (local_a e)| <= toR (local_ra e) /\
+     `|B' i j - toR (local_b e)| <= toR (local_rb e)) ->
   encloses (pencil_for slopes grain)
-    (fun i j => scale_at i * A i j) (fun i j => scale_at i * B i j).
+    (fun i j => scale_at i * A' i j) (fun i j => scale_at i * B' i j).
 Proof.
-move=> near i j /in_local Hi /in_local Hj; have [near_a near_b] := near i j Hi Hj.
+move=> close i j /in_local Hi /in_local Hj; have [near_a near_b] := close i j Hi Hj.
 rewrite /local_pencil /= !local_entriesE //=.
 by split; apply: rounding => //; apply: scale_gt0_.
 Qed.
 
-Theorem local_line slopes u : 0 <= u -> u <= 1 ->
-  near_line (pencil_for slopes grain) local_family u.
+Theorem local_line u : 0 <= u -> u <= 1 -> near_line (pencil_for false grain) local_family u.
 Proof.
-move=> u0 u1; pose e i j := exact_entry slopes i j.
-pose B i j : R := toR (local_b (e i j)); pose A i j := raw u i j - u * B i j.
-exists (fun i j => scale_at i * A i j), (fun i j => scale_at i * B i j); split; last first.
-  move=> i j _ _; rewrite /Enclosed.T /local_family /A.
-  by move: (scale_at i) (raw u i j) (B i j) => *; ring.
-apply: local_encloses => i j Hi Hj; have := raw_line slopes u0 u1 Hi Hj; cbv zeta => near.
-have rb0 : 0 <= toR (local_rb (e i j)) :> R.
-  rewrite /e part_rb; case: slopes {near e A B} => //.
-  have [x _ x_le] := raw_chord u0 u1 u0 u1 Hi Hj; move: x_le; rewrite part_rb.
-  exact: le_trans.
-split; last by rewrite subrr normr0.
-rewrite /A /B -/(e i j) -addrA -opprD [u * _ + _]addrC.
-by apply: le_trans near _; rewrite ler_subl_addr ler_addl.
-Qed.
-
-Theorem local_chord u u' : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
-  near_chord (pencil_for true grain) local_family u u'.
-Proof.
-move=> u0 u1 v0 v1; pose e i j := exact_entry true i j.
-pose slope i j := (raw u i j - raw u' i j) / (u - u').
-pose B i j : R := if u == u' then toR (local_b (e i j)) else slope i j.
-pose A i j := raw u i j - u * B i j.
-have B_near i j : (i < ns)%N -> (j < ns)%N ->
-    `|B i j - toR (local_b (e i j))| <= toR (local_rb (e i j)).
-  move=> Hi Hj; have [x xE x_le] := raw_chord u0 u1 v0 v1 Hi Hj.
-  rewrite /B; case: eqP => [_|/eqP uu]; first by rewrite subrr normr0; apply: le_trans x_le.
-  by rewrite /slope xE mulrAC mulfV ?subr_eq0 // mul1r [_ + x]addrC addrK.
-exists (fun i j => scale_at i * A i j), (fun i j => scale_at i * B i j); split.
-- apply: local_encloses => i j Hi Hj; split; last exact: B_near.
-  have near := raw_line true u0 u1 Hi Hj; cbv zeta in near; rewrite -/(e i j) in near *.
-  have -> : A i j - toR (local_a (e i j)) =
-      (raw u i j - (toR (local_a (e i j)) + u * toR (local_b (e i j)))) -
-      u * (B i j - toR (local_b (e i j))).
-    by rewrite /A; move: (raw u i j) (B i j) (toR _) (toR _) => *; ring.
-  rewrite (le_trans (ler_norm_sub _ _)) // -[toR (local_ra _)](subrK (toR (local_rb (e i j)))).
-  rewrite ler_add // normrM ger0_norm //; apply: le_trans (B_near _ _ Hi Hj).
-  by rewrite ler_pimull.
-- move=> i j _ _; rewrite /Enclosed.T /local_family /A.
-  by move: (scale_at i) (raw u i j) (B i j) => *; ring.
-move=> i j _ _; rewrite /Enclosed.T /local_family /A /B /slope; case: eqP => [<-|/eqP uu].
-  by move: (scale_at i) (raw u i j) (toR _) => *; ring.
-have d0 : u - u' != 0 by rewrite subr_eq0.
-have : raw u' i j = raw u i j - (u - u') * ((raw u i j - raw u' i j) / (u - u')).
-  by rewrite mulrC divfK // opprB addrC subrK.
-set x := (_ / _); move: (raw u i j) x => y x ->.
-by move: (scale_at i) => *; ring.
+move=> u0 u1; pose e i j := exact_entry false i j.
+pose B' i j : R := toR (local_b (e i j)); pose A' i j := raw u i j - u * B' i j.
+exists (fun i j => scale_at i * A' i j), (fun i j => scale_at i * B' i j); split; last first.
+  move=> i j _ _; rewrite /Enclosed.T /local_family /A'.
+  by move: (scale_at i) (raw u i j) (B' i j) => *; ring.
+apply: local_encloses => i j Hi Hj.
+have rb0 : toR (local_rb (e i j)) = 0 :> R by rewrite /e part_rb.
+have near_u : `|raw u i j - (toR (local_a (e i j)) + u * toR (local_b (e i j)))| <=
+    toR (local_ra (e i j)) - toR (local_rb (e i j)) := raw_line false u0 u1 Hi Hj.
+rewrite rb0 subr0 in near_u; split; last by rewrite -/(e i j) rb0 /B' subrr normr0.
+by rewrite /A' /B' -/(e i j) -addrA -opprD [u * _ + _]addrC.
 Qed.
 
 (* Between t and u. *)
@@ -537,17 +459,17 @@ Qed.
 
 (* Solutions of the pencil and of the family. *)
 Definition free_values u xs :=
-  Elimination.free_part nf (F_at Q a (d_of u)) ns (G_at Q a (d_of u)) xs.
+  Elimination.free_part nf (F_at Q A B a (d_of u)) ns (G_at Q A B a (d_of u)) xs.
 
 (* The free rows vanish where the free variables have these values. *)
 Lemma free_values_rows u x : 0 <= u ->
-  (forall i, i \in free Q -> reaction Q (t_of u) x i = 0) <->
+  (forall i, i \in free Q -> y (t_of u) x i = 0) <->
   (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k).
 Proof.
 move=> u0; apply: iff_trans (free_rows_vanish s_low_gt0 (below_at_u u0) _ _ _ _).
 split=> [rows k /in_free lt_k|rows i /(nthP 0%N)[k lt_k <-]].
-  by rewrite -(reaction_free_at wf x (t_ofE u)) // rows ?mulr0 // mem_nth.
-apply: (mulfI (lt0r_neq0 q_gt0)); rewrite mulr0 (reaction_free_at wf x (t_ofE u)) //.
+  by rewrite -(reaction_free_at A B wf x _ (t_ofE u)) // rows ?mulr0 // mem_nth.
+apply: (mulfI (lt0r_neq0 q_gt0)); rewrite mulr0 (reaction_free_at A B wf x _ (t_ofE u)).
 by apply: rows; rewrite mem_iota.
 Qed.
 
@@ -568,7 +490,7 @@ Definition row_factor_at i : R := scale_at i * (4%:R * toR power_z * u2) * toR q
 
 Lemma row_factor_gt0_ i : (i < ns)%N -> 0 < row_factor_at i.
 Proof.
-move=> Hi; have [q0 u0 s0 _] := expand_parts R expanded.
+move=> Hi; have [q0 u0 s0] := parts.
 rewrite !mulr_gt0 ?power_gt0 ?exprn_gt0 ?ltr0n // ?s0 //.
 by rewrite invr_gt0 toR_gt0.
 Qed.
@@ -576,11 +498,281 @@ Qed.
 Lemma local_image slopes u x i : 0 <= u -> (i < ns)%N ->
   (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k) ->
   family_image (pencil_for slopes grain) local_family u (slip_of Q x) i =
-  row_factor_at i * reaction Q (t_of u) x (nth 0%N (slip Q) i).
+  row_factor_at i * y (t_of u) x (nth 0%N (slip Q) i).
 Proof.
 move=> u0 Hi part; rewrite /row_factor_at -!mulrA.
-rewrite (reaction_slip_at wf x (t_ofE u) Hi) (condensed_row _ _ i part) !mulr_sumr.
+rewrite (reaction_slip_at A B wf x _ (t_ofE u)) (condensed_row _ _ i part) !mulr_sumr.
 by rewrite /family_image; apply: eq_bigr => j _; rewrite /local_family /raw !mulrA.
+Qed.
+
+(* A multiple on the complementarity variables is one everywhere. *)
+Lemma scaled_all u (x x' : nat -> R) f :
+  (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k) ->
+  (forall k, k \in fi -> free_of Q x' k = free_values u (slip_of Q x') k) ->
+  (forall j, (j < ns)%N -> slip_of Q x' j = f * slip_of Q x j) ->
+  forall i, i \in iota 0 (order Q) -> x' i = f * x i.
+Proof.
+move=> part part' scaled i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
+  have Hk : k \in fi by rewrite mem_iota.
+  rewrite -[LHS]/(free_of Q x' k) -[X in _ = f * X]/(free_of Q x k) part' // part //.
+  rewrite /free_values /Elimination.free_part mulrN mulr_sumr.
+  by congr (- _); apply: sum_eq => j; rewrite mem_iota => Hj; rewrite scaled // mulrCA.
+exact: scaled.
+Qed.
+
+(* Polynomials of the blocks in u. *)
+Definition shifted_poly i j : {poly R} :=
+  (toR q * A i j + toR p * B i j)%:P +
+  ((toR off / toR uy)%:P + (toR ext / toR uy)%:P * 'X) * (toR q * B i j)%:P.
+
+Lemma shifted_polyE (u : R) i j : (shifted_poly i j).[u] = shifted_entry A B a (d_of u) i j.
+Proof.
+rewrite /shifted_poly /shifted_entry /d_of !(hornerD, hornerM, hornerC, hornerX).
+have -> : (toR off + u * toR ext) / toR uy = toR off / toR uy + toR ext / toR uy * u by ring.
+by [].
+Qed.
+
+Definition F_poly i k := shifted_poly (nth 0%N (free Q) i) (nth 0%N (free Q) k).
+Definition G_poly i j := shifted_poly (nth 0%N (free Q) i) (nth 0%N (slip Q) j).
+Definition H_poly i k := shifted_poly (nth 0%N (slip Q) i) (nth 0%N (free Q) k).
+Definition D_poly i j := shifted_poly (nth 0%N (slip Q) i) (nth 0%N (slip Q) j).
+
+Definition family_poly i j : {poly R} :=
+  (scale_at i * (4%:R * toR power_z * u2))%:P * condensed_poly nf F_poly G_poly H_poly D_poly i j.
+
+Lemma block_at u : block fi (fun i j => (F_poly i j).[u]) = block fi (F_at Q A B a (d_of u)).
+Proof. by apply/matrixP=> i j; rewrite !mxE shifted_polyE. Qed.
+
+Lemma unit_at_u u : 0 <= u -> block fi (F_at Q A B a (d_of u)) \in unitmx.
+Proof. by move=> u0; apply: block_unit s_low_gt0 (below_at_u u0). Qed.
+
+Lemma family_polyE u i j : 0 <= u -> (family_poly i j).[u] =
+  (free_det nf F_poly).[u] * local_family u i j.
+Proof.
+move=> u0; rewrite /family_poly hornerM hornerC condensed_polynomial ?block_at ?unit_at_u //.
+have -> : condensed_at nf (fun i j => (F_poly i j).[u]) (fun i j => (G_poly i j).[u])
+    (fun i j => (H_poly i j).[u]) (fun i j => (D_poly i j).[u]) i j =
+    condensed_family Q A B a (d_of u) i j.
+  rewrite /condensed_family /condensed_at /D_poly shifted_polyE; congr (_ - _).
+  apply: eq_bigr => k _; rewrite /H_poly shifted_polyE; congr (_ * _).
+  rewrite /solve block_at; congr (at_index (_ *m _) _); apply/colP=> m; rewrite !mxE.
+  exact: shifted_polyE.
+by rewrite /local_family /raw mulrCA !mulrA.
+Qed.
+
+Lemma free_det_neq0 u : 0 <= u -> (free_det nf F_poly).[u] != 0.
+Proof. by move=> u0; rewrite free_detE block_at -unitfE -unitmxE unit_at_u. Qed.
+
+End Local.
+
+(* The pencil itself: chords. *)
+Section Exact.
+
+Variables (R : rcfType) (Q : pencil) (a : anchor) (fam : anchor_family) (low_a low_b : form_bound).
+Variables (lo hi : point) (grain : Z).
+Hypotheses (ready : prepared Q a fam low_a low_b lo hi) (grain0 : (0 <? grain)%Z).
+Notation ns := (size (slip Q)).
+Notation nf := (size (free Q)).
+Notation fi := (iota 0 nf).
+Notation si := (iota 0 ns).
+Notation A := (a_entry R Q).
+Notation B := (b_entry R Q).
+
+Let wf : wellformed Q := let: And5 w _ _ _ _ := ready in w.
+Let expanded : expand Q a = Some fam := let: And5 _ e _ _ _ := ready in e.
+Let bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b := let: And5 _ _ _ b _ := ready in b.
+Let own : prepared_member Q A B a fam low_a low_b lo hi := prepared_ready R ready.
+
+Notation p := (anchor_center a).1.
+Notation q := (anchor_center a).2.
+Notation off := (offset a lo hi).
+Notation ext := (extent a lo hi).
+Notation uy := (unit_y a lo hi).
+Notation width := (interval_width lo hi).
+Notation bn := (bound_n a low_a low_b lo).
+Notation bd := (bound_d low_a low_b lo).
+Notation d_of := (d_of a lo hi).
+Notation t_of := (t_of lo hi).
+Notation u_of := (u_of lo hi).
+Notation b_reach := (b_reach R a lo hi).
+Notation s_low := (s_low R a low_a low_b lo).
+Notation at_reach := (at_reach a lo hi).
+Notation power_z := (power_z a fam lo hi).
+Notation raw := (raw Q A B a fam lo hi).
+Notation remainder_at := (remainder_at Q A B a lo hi).
+Notation coefficients := (coefficients a fam lo hi).
+Notation exact_entry := (exact_entry a fam low_a low_b lo hi).
+Notation scale_at := (scale_at R a grain).
+Notation local_family := (local_family Q A B a fam lo hi grain).
+Notation pencil_for := (local_pencil ns a low_a low_b fam lo hi).
+Notation free_values := (free_values Q A B a lo hi).
+Notation row_factor_at := (row_factor_at R a fam lo hi grain).
+Notation joined := (joined Q A B a lo hi).
+Notation family_poly := (family_poly Q A B a fam lo hi grain).
+Notation F_poly := (F_poly Q A B a lo hi).
+
+Let proper_parts := proper_parts own.
+Let q_gt0 := q_gt0 own.
+Let uy_gt0 := uy_gt0 own.
+Let ext_gt0 := ext_gt0 own.
+Let bd_gt0 := bd_gt0 own.
+Let s_low_gt0 := s_low_gt0 own.
+Let power_gt0 := power_gt0 own.
+Let at_reachE := at_reachE own.
+Let d_ofE := d_ofE own.
+Let t_of_ge0 := t_of_ge0 own.
+Let d_bounded := d_bounded own.
+Let below_at_u := below_at_u own.
+Let t_of_u := t_of_u own.
+Let u_of_between := u_of_between own.
+Let between_local := between_local own.
+Let between_t := between_t own.
+Let free_values_rows := free_values_rows own.
+Let slip_of_joined := @slip_of_joined R Q A B a lo hi.
+Let joined_values := joined_values own.
+Let local_image slopes (u : R) x i : 0 <= u -> (i < ns)%N ->
+  (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k) ->
+  family_image (pencil_for slopes grain) local_family u (slip_of Q x) i =
+  row_factor_at i * reaction Q (t_of u) x (nth 0%N (slip Q) i).
+Proof. exact: (local_image grain own). Qed.
+Let local_encloses := local_encloses own grain0.
+Let row_factor_gt0_ := row_factor_gt0_ own grain0.
+Let family_polyE := family_polyE grain own.
+Let free_det_neq0 := free_det_neq0 own.
+Let scaled_all := @scaled_all R Q A B a lo hi.
+Let local_line := local_line own grain0.
+Let rawE := rawE own.
+Let raw_line := raw_line own.
+
+Notation l_series := (residual_left Q a (-1)).
+Notation r_series := (residual_right Q a (-1)).
+
+Lemma small_l : all (fun M => size M <= nf)%N l_series.
+Proof. by have [_ _ _ []] := expand_parts R expanded. Qed.
+
+Lemma small_r : all (fun M => size M <= nf)%N r_series.
+Proof. by have [_ _ _ []] := expand_parts R expanded. Qed.
+
+Lemma family_parts i : (i < ns)%N -> nth [::] (left_norms fam) i = norms l_series i /\
+  nth [::] (right_norms fam) i = norms r_series i.
+Proof.
+by move=> Hi; have [_ _ _ [_ _ _ ->]] := expand_parts R expanded; rewrite /= !nth_norms.
+Qed.
+
+Notation nl := (fun i => eval (norms l_series i) b_reach).
+Notation nr := (fun j => eval (norms r_series j) b_reach).
+Definition dl i : R := eval (derivative (norms l_series i)) b_reach.
+Definition dr j : R := eval (derivative (norms r_series j)) b_reach.
+
+Lemma remainderE u i j : (i < ns)%N -> (j < ns)%N ->
+  remainder_at u i j = \sum_(k <- fi) value l_series (d_of u) k i *
+    solve nf (F_at Q A B a (d_of u)) (fun k => value r_series (d_of u) k j) k.
+Proof.
+move=> Hi Hj; apply: sum_eq => k Hk; rewrite own_left //; congr (_ * _).
+by apply: solve_ext => m Hm; rewrite own_right.
+Qed.
+
+Lemma remainder_quotient u u' i j : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
+  (i < ns)%N -> (j < ns)%N ->
+  exists2 x, remainder_at u i j - remainder_at u' i j = (u - u') * x &
+    `|x| <= toR ext / toR uy *
+      ((dl i * nr j + nl i * dr j) / s_low + nl i * nr j * toR (drift fam) / s_low ^+ 2).
+Proof.
+move=> u0 u1 v0 v1 Hi Hj; rewrite !remainderE //.
+have diff m k : m \in fi -> k \in fi -> F_at Q A B a (d_of u) m k - F_at Q A B a (d_of u') m k =
+    (d_of u - d_of u') * toR (lookup (row_1 Q a (nth 0%N (free Q) m)) (nth 0%N (free Q) k)).
+  move=> _ _; rewrite /F_at /shifted_entry /row_1 lookup_times toRM -/(B _ _).
+  by move: (toR _ * A _ _) (toR _ * B _ _) => *; ring.
+have [x xE x_le] := remainder_difference s_low_gt0 (below_at_u u0) (below_at_u v0)
+  (free_symmetric own (d_of u')) (F1_symmetric R a wf bounded_b) diff
+  (fun m Hm => drift_bound R wf expanded Hm) (drift_ge0 R expanded)
+  (fun k => slopeE (poly_of l_series k i) (d_of u) (d_of u'))
+  (fun k => slopeE (poly_of r_series k j) (d_of u) (d_of u'))
+  (series_norm i small_l (d_bounded v0 v1)) (series_norm j small_r (d_bounded u0 u1))
+  (series_difference i small_l (d_bounded u0 u1) (d_bounded v0 v1))
+  (series_difference j small_r (d_bounded u0 u1) (d_bounded v0 v1)).
+exists (toR ext / toR uy * x).
+  rewrite xE mulrA; congr (_ * _); rewrite /AnchorLeaf.d_of.
+  by rewrite -mulrBl opprD addrACA subrr add0r -mulrBl mulrA.
+by rewrite normrM ger0_norm ?divr_ge0 ?(ltW ext_gt0) ?(ltW uy_gt0) // ler_wpmul2l //
+  divr_ge0 ?(ltW ext_gt0) ?(ltW uy_gt0).
+Qed.
+
+Lemma remainder_slope_bound power i j : 0 < toR power :> R ->
+  toR power * (toR ext / toR uy *
+      ((dl i * nr j + nl i * dr j) / s_low + nl i * nr j * toR (drift fam) / s_low ^+ 2)) <=
+  toR (remainder_slope a low_a low_b fam lo hi power
+         (at_reach (norms l_series i)) (at_reach (norms r_series j))
+         (at_reach (derivative (norms l_series i))) (at_reach (derivative (norms r_series j)))).
+Proof.
+move=> p0; have [_ _ _ _ b0] := proper_parts; have d0 := bd_gt0; have y0 := uy_gt0.
+have [lE l0] := at_reachE (norms l_series i); have [rE r0] := at_reachE (norms r_series j).
+have [dlE dl0] := at_reachE (derivative (norms l_series i)).
+have [drE dr0] := at_reachE (derivative (norms r_series j)).
+rewrite /remainder_slope !toRD; apply: (@le_trans _ _
+  (toR power * (toR ext / toR uy) * (dl i * nr j / s_low) +
+   toR power * (toR ext / toR uy) * (nl i * dr j / s_low) +
+   toR power * (toR ext / toR uy) * (nl i * nr j * toR (drift fam) / s_low ^+ 2))).
+  by rewrite -!mulrDr -mulrDl mulrA.
+by apply: ler_add; first apply: ler_add; [apply: slope_le | apply: slope_le | apply: square_le].
+Qed.
+
+Lemma raw_chord u u' i j : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 -> (i < ns)%N -> (j < ns)%N ->
+  let e := exact_entry true i j in
+  exists2 x, raw u i j - raw u' i j = (u - u') * (toR (local_b e) + x) &
+    `|x| <= toR (local_rb e).
+Proof.
+move=> u0 u1 v0 v1 Hi Hj; cbv zeta; rewrite part_b part_rb !rawE // !(own_center wf expanded) //.
+rewrite toRD !four !(mulrBr (toR power_z)) !(mulrBr 4%:R) -!(coefficientsE own).
+rewrite /entry_slope; have [-> _] := family_parts Hi; have [_ ->] := family_parts Hj.
+rewrite [toR (8 * _)%Z]toRM -[toR 8]/(8%:R : R); set c := coefficients i j.
+have [x xE x_le] := chord_difference c u0 u1 v0 v1.
+have [y yE y_le] := remainder_quotient u0 u1 v0 v1 Hi Hj.
+exists (4%:R * x - 4%:R * (toR power_z * y)).
+  move: xE yE; set a1 := eval c u; set a2 := eval c u'.
+  set b1 := remainder_at u i j; set b2 := remainder_at u' i j => xE yE.
+  have -> : 4%:R * a1 - 4%:R * (toR power_z * b1) - (4%:R * a2 - 4%:R * (toR power_z * b2)) =
+            4%:R * (a1 - a2) - 4%:R * toR power_z * (b1 - b2) by ring.
+  by rewrite xE yE; ring.
+rewrite (le_trans (ler_norm_sub _ _)) // ler_add //.
+  rewrite normrM ger0_norm ?ler0n // (_ : 8%:R = 4%:R * 2%:R :> R); last by ring.
+  by rewrite -mulrA ler_pmul2l ?ltr0n //; apply: le_trans x_le _; rewrite toRM.
+rewrite normrM ger0_norm ?ler0n // ler_pmul2l ?ltr0n // normrM (gtr0_norm power_gt0).
+apply: le_trans (remainder_slope_bound _ _ power_gt0).
+by rewrite ler_pmul2l ?power_gt0.
+Qed.
+
+Theorem local_chord u u' : 0 <= u -> u <= 1 -> 0 <= u' -> u' <= 1 ->
+  near_chord (pencil_for true grain) local_family u u'.
+Proof.
+move=> u0 u1 v0 v1; pose e i j := exact_entry true i j.
+pose slope i j := (raw u i j - raw u' i j) / (u - u').
+pose B i j : R := if u == u' then toR (local_b (e i j)) else slope i j.
+pose A i j := raw u i j - u * B i j.
+have B_near i j : (i < ns)%N -> (j < ns)%N ->
+    `|B i j - toR (local_b (e i j))| <= toR (local_rb (e i j)).
+  move=> Hi Hj; have [x xE x_le] := raw_chord u0 u1 v0 v1 Hi Hj.
+  rewrite /B; case: eqP => [_|/eqP uu]; first by rewrite subrr normr0; apply: le_trans x_le.
+  by rewrite /slope xE mulrAC mulfV ?subr_eq0 // mul1r [_ + x]addrC addrK.
+exists (fun i j => scale_at i * A i j), (fun i j => scale_at i * B i j); split.
+- apply: local_encloses => i j Hi Hj; split; last exact: B_near.
+  have near := raw_line true u0 u1 Hi Hj; cbv zeta in near; rewrite -/(e i j) in near *.
+  have -> : A i j - toR (local_a (e i j)) =
+      (raw u i j - (toR (local_a (e i j)) + u * toR (local_b (e i j)))) -
+      u * (B i j - toR (local_b (e i j))).
+    by rewrite /A; move: (raw u i j) (B i j) (toR _) (toR _) => *; ring.
+  rewrite (le_trans (ler_norm_sub _ _)) // -[toR (local_ra _)](subrK (toR (local_rb (e i j)))).
+  rewrite ler_add // normrM ger0_norm //; apply: le_trans (B_near _ _ Hi Hj).
+  by rewrite ler_pimull.
+- move=> i j _ _; rewrite /Enclosed.T /local_family /A.
+  by move: (scale_at i) (raw u i j) (B i j) => *; ring.
+move=> i j _ _; rewrite /Enclosed.T /local_family /A /B /slope; case: eqP => [<-|/eqP uu].
+  by move: (scale_at i) (raw u i j) (toR _) => *; ring.
+have d0 : u - u' != 0 by rewrite subr_eq0.
+have : raw u' i j = raw u i j - (u - u') * ((raw u i j - raw u' i j) / (u - u')).
+  by rewrite mulrC divfK // opprB addrC subrK.
+set x := (_ / _); move: (raw u i j) x => y x ->.
+by move: (scale_at i) => *; ring.
 Qed.
 
 Lemma to_family slopes u x : 0 <= u -> solution Q (t_of u) x ->
@@ -617,21 +809,6 @@ rewrite -[x (nth _ _ _)]/(slip_of Q x k) slipE //.
 by apply/(complementary_scaled _ _ (row_factor_gt0_ Hk)); rewrite -imageE; apply: rows.
 Qed.
 
-(* A multiple on the complementarity variables is one everywhere. *)
-Lemma scaled_all u (x x' : nat -> R) f :
-  (forall k, k \in fi -> free_of Q x k = free_values u (slip_of Q x) k) ->
-  (forall k, k \in fi -> free_of Q x' k = free_values u (slip_of Q x') k) ->
-  (forall j, (j < ns)%N -> slip_of Q x' j = f * slip_of Q x j) ->
-  forall i, i \in iota 0 (order Q) -> x' i = f * x i.
-Proof.
-move=> part part' scaled i Hi; case/orP: (free_or_slip Hi) => /(nthP 0%N)[k lt_k <-].
-  have Hk : k \in fi by rewrite mem_iota.
-  rewrite -[LHS]/(free_of Q x' k) -[X in _ = f * X]/(free_of Q x k) part' // part //.
-  rewrite /free_values /Elimination.free_part mulrN mulr_sumr.
-  by congr (- _); apply: sum_eq => j; rewrite mem_iota => Hj; rewrite scaled // mulrCA.
-exact: scaled.
-Qed.
-
 (* Leaves *)
 Section Leaf.
 
@@ -658,7 +835,7 @@ move=> /negbTE tight sol bt ag; have [u0 u1] := u_of_between bt.
 rewrite -(t_of_u t) in sol; move: u0 u1 sol; set u := u_of t => u0 u1 sol.
 case/and3P: checked => _ _; rewrite tight => ok.
 have [fam_sol _] := to_family false u0 sol.
-have [A [B [E lin_sol]]] := line_solution (local_line false u0 u1) fam_sol.
+have [A [B [E lin_sol]]] := line_solution (local_line u0 u1) fam_sol.
 have reg := in_local_region u0 u1 ag.
 move: tight ok; case: (l) => [w|negative low high|c|c o] /= tight ok.
 - exact: (farkas_sound E local_ordered ok reg lin_sol).
@@ -670,49 +847,6 @@ case: o tight signs => [//|i _ /andP[iK neg]|i _ /and3P[Hi nm neg]].
   exact: (negative_x_sound E local_ordered iso iK neg reg lin_sol).
 exact: (negative_y_sound E local_ordered iso Hi nm neg reg lin_sol).
 Qed.
-
-(* Polynomials of the blocks in u. *)
-Definition shifted_poly i j : {poly R} :=
-  (toR (lookup (row_0 Q a i) j))%:P +
-  ((toR off / toR uy)%:P + (toR ext / toR uy)%:P * 'X) * (toR (lookup (row_1 Q a i) j))%:P.
-
-Lemma shifted_polyE (u : R) i j : (shifted_poly i j).[u] = shifted_entry Q a (d_of u) i j.
-Proof.
-rewrite /shifted_poly /shifted_entry /d_of !(hornerD, hornerM, hornerC, hornerX).
-have -> : (toR off + u * toR ext) / toR uy = toR off / toR uy + toR ext / toR uy * u by ring.
-by [].
-Qed.
-
-Definition F_poly i k := shifted_poly (nth 0%N (free Q) i) (nth 0%N (free Q) k).
-Definition G_poly i j := shifted_poly (nth 0%N (free Q) i) (nth 0%N (slip Q) j).
-Definition H_poly i k := shifted_poly (nth 0%N (slip Q) i) (nth 0%N (free Q) k).
-Definition D_poly i j := shifted_poly (nth 0%N (slip Q) i) (nth 0%N (slip Q) j).
-
-Definition family_poly i j : {poly R} :=
-  (scale_at i * (4%:R * toR power_z * u2))%:P * condensed_poly nf F_poly G_poly H_poly D_poly i j.
-
-Lemma block_at u : block fi (fun i j => (F_poly i j).[u]) = block fi (F_at Q a (d_of u)).
-Proof. by apply/matrixP=> i j; rewrite !mxE shifted_polyE. Qed.
-
-Lemma unit_at_u u : 0 <= u -> block fi (F_at Q a (d_of u)) \in unitmx.
-Proof. by move=> u0; apply: block_unit s_low_gt0 (below_at_u u0). Qed.
-
-Lemma family_polyE u i j : 0 <= u -> (family_poly i j).[u] =
-  (free_det nf F_poly).[u] * local_family u i j.
-Proof.
-move=> u0; rewrite /family_poly hornerM hornerC condensed_polynomial ?block_at ?unit_at_u //.
-have -> : condensed_at nf (fun i j => (F_poly i j).[u]) (fun i j => (G_poly i j).[u])
-    (fun i j => (H_poly i j).[u]) (fun i j => (D_poly i j).[u]) i j =
-    condensed_family Q a (d_of u) i j.
-  rewrite /condensed_family /condensed_at /D_poly shifted_polyE; congr (_ - _).
-  apply: eq_bigr => k _; rewrite /H_poly shifted_polyE; congr (_ * _).
-  rewrite /solve block_at; congr (at_index (_ *m _) _); apply/colP=> m; rewrite !mxE.
-  exact: shifted_polyE.
-by rewrite /local_family /raw mulrCA !mulrA.
-Qed.
-
-Lemma free_det_neq0 u : 0 <= u -> (free_det nf F_poly).[u] != 0.
-Proof. by move=> u0; rewrite free_detE block_at -unitfE -unitmxE unit_at_u. Qed.
 
 End Leaf.
 
@@ -769,7 +903,7 @@ Notation r := (Region lo hi st).
 Notation local_r := (local_region r).
 Notation P := (pencil_for true grain).
 
-Lemma local_between t (e e' : point) :
+Lemma local_between (t : R) (e e' : point) :
   between t e e' -> between (u_of t) (local_point lo hi e) (local_point lo hi e').
 Proof. by move=> bt; apply/between_local; rewrite t_of_u. Qed.
 
@@ -872,7 +1006,7 @@ Hypothesis pivot_moves : slip_of Q x (pin_pivot c) != 0.
 Let pin : pinned P local_r c.
 Proof. by case/and3P: checked. Qed.
 
-Lemma t_of_0 : t_of 0 = toR lo.1 / toR lo.2.
+Lemma t_of_0 : t_of (0 : R) = toR lo.1 / toR lo.2.
 Proof.
 have [_ l2 h2 _ _] := proper_parts; rewrite /t_of mul0r addr0 !toRM.
 by field; rewrite !gt_eqF.
@@ -919,4 +1053,4 @@ End Limit.
 
 End Pinned.
 
-End Local.
+End Exact.

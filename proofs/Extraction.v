@@ -16,7 +16,7 @@ From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Covers Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.
 From Mceip Require Import ZeroPencil ZeroEnclosed ZeroComplete Points Rational Statement
-  Integral Equilibrium Unique Stability Stable Verdict.
+  Integral Members Radii Equilibrium Unique Stability Stable Verdict.
 
 Extract Inductive nat => int [ "0" "Natural.succ" ]
   "(fun zero next n -> if n = 0 then zero () else next (Natural.before n))".
@@ -72,4 +72,4 @@ Extraction "kernel.ml"
   check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held
   is_apart applied_row equations
   inequalities scaled_row signed_part check_given_rates check_given_stable mu_pencil k_rows kappa_in
-  width_bound.
+  width_bound check_members_absent radii_of_parts scaled_radii widened check_radii_absent.

@@ -618,7 +618,7 @@ Definition integral_wellformed q :=
 Theorem scaled_equivalent (R : rcfType) c p q : scaled c p = Some q -> integral_wellformed q ->
   equivalent (semantics_of R p) (integral_semantics R q).
 Proof.
-case: p => [Q|B u|rows|//] /=; case: ifP => // ex [<-].
+case: p => [Q|B u|//|rows|//] /=; case: ifP => // ex [<-].
 - by move=> _; apply: pencil_equivalent.
 - case: ifP => [/nilP none|some] wf; first exact: system_equivalent.
   by apply: zero_equivalent; rewrite ?some.
@@ -630,5 +630,5 @@ Theorem scaled_meaning (R : rcfType) c p q s : scaled c p = Some q -> integral_w
 Proof.
 move=> is_q wf holds; have : meaning_in (semantics_of R p) s.
   by apply: equivalent_meaning holds; apply: scaled_equivalent is_q wf.
-by case: p is_q => [Q|B u|rows|B] //; case: s {holds}.
+by case: p is_q => [Q|B u|B radii|rows|B] //; case: s {holds}.
 Qed.

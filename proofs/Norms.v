@@ -97,6 +97,38 @@ under eq_bigr do rewrite exprMn; rewrite -mulr_sumr exprMn -normrX ger0_norm ?sq
 by rewrite ler_wpmul2l ?sqr_ge0.
 Qed.
 
+(* A vector with components of smaller absolute value. *)
+Lemma norm_dominated y z n : (forall k, k \in l -> `|y k| <= z k) -> norm_le z n -> norm_le y n.
+Proof.
+move=> le [n0 zn]; split=> //; apply: le_trans zn; apply: sum_le => k Hk.
+rewrite -[y k ^+ 2]ger0_norm ?sqr_ge0 // normrX ler_pexpn2r ?nnegrE ?le //.
+exact: le_trans (le k Hk).
+Qed.
+
+(* The quadratic form of a matrix, by the sums of its rows and columns (Gershgorin). *)
+Lemma form_by_sums (M : nat -> nat -> R) z :
+  `|\sum_(i <- l) \sum_(k <- l) z i * M i k * z k| *+ 2 <=
+  \sum_(i <- l) z i ^+ 2 * \sum_(k <- l) (`|M i k| + `|M k i|).
+Proof.
+apply: (@le_trans _ _ (\sum_(i <- l) \sum_(k <- l) `|M i k| * (z i ^+ 2 + z k ^+ 2))).
+  rewrite -mulr_natl; apply: (@le_trans _ _
+      (2%:R * \sum_(i <- l) \sum_(k <- l) `|z i * M i k * z k|)).
+    rewrite ler_pmul2l ?ltr0n //; apply: le_trans (sum_norm _ _) _.
+    by apply: sum_le => i _; apply: sum_norm.
+  rewrite mulr_sumr; apply: sum_le => i _; rewrite mulr_sumr; apply: sum_le => k _.
+  rewrite !normrM (_ : _ * _ = `|M i k| * ((`|z i| * `|z k|) *+ 2)); last first.
+    by move: `|_| `|_| `|_| => *; ring.
+  rewrite ler_wpmul2l // -[z i ^+ 2]ger0_norm ?sqr_ge0 // -[z k ^+ 2]ger0_norm ?sqr_ge0 //.
+  rewrite !normrX -subr_ge0.
+  have -> : `|z i| ^+ 2 + `|z k| ^+ 2 - (`|z i| * `|z k|) *+ 2 = (`|z i| - `|z k|) ^+ 2 by ring.
+  exact: sqr_ge0.
+rewrite le_eqVlt; apply/orP; left; apply/eqP.
+under eq_bigr do (under eq_bigr do rewrite mulrDr; rewrite big_split /=).
+rewrite big_split /= [X in _ + X]exchange_big -big_split; apply: eq_bigr => i _ /=.
+rewrite -big_split mulr_sumr; apply: eq_bigr => k _ /=.
+by rewrite mulrDr ![_ * z i ^+ 2]mulrC.
+Qed.
+
 (* A symmetric matrix whose rows have absolute sums of at most beta. *)
 Lemma bilinear_bound (M : nat -> nat -> R) beta y z a b :
   (forall i k, i \in l -> k \in l -> M i k = M k i) ->

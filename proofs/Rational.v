@@ -55,6 +55,13 @@ Record rational_system := RationalSystem {
   given_mass : seq rational_row;
   given_particles : seq given_particle }.
 
+(* Radii of the entries of both matrices, and for each slip particle the ends of its friction
+   factor: the system stands for all bodies within them. *)
+Record rational_radii := RationalRadii {
+  radii_of_stiffness : seq rational_row;
+  radii_of_mass : seq rational_row;
+  factor_ranges : seq (rational * rational) }.
+
 (* A row (M_i, q_i) with its bounds. *)
 Record rational_mcp_row := RationalMcpRow {
   given_m : rational_row;
@@ -80,6 +87,7 @@ Record rational_body := RationalBody {
 Inductive problem :=
   | GivenPencil of rational_pencil
   | GivenSystem of rational_system & unknown
+  | GivenMembers of rational_system & rational_radii
   | GivenPlain of seq rational_mcp_row
   | GivenLoads of rational_body.
 
@@ -188,7 +196,7 @@ Definition scaled p : option integral :=
   | GivenPlain rows =>
       if (0 <? entry_scale c) && all exact_mcp_row rows
       then Some (PlainProblem [seq scaled_mcp_row r | r <- rows]) else None
-  | GivenLoads _ => None
+  | GivenMembers _ _ | GivenLoads _ => None
   end.
 
 End Scaling.
@@ -210,5 +218,5 @@ Definition complementarity p : seq nat :=
   | GivenSystem B _ =>
       iota (count (fun d => d \notin held B) (iota 0 (degrees B)))
         (size (slipping B) + 3 * size (with_zero B))
-  | GivenPlain _ | GivenLoads _ => [::]
+  | GivenMembers _ _ | GivenPlain _ | GivenLoads _ => [::]
   end.

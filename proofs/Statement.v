@@ -18,6 +18,9 @@
 
    and for each particle with zero reaction the lines of [zero_reaction] (ZeroReaction.v).
 
+   A body with radii stands for its *members*; a statement about it is about each of them
+   ([given_member], [member_moves]).
+
    A body under loads has *equilibria*: displacements u with reactions that satisfy (1), (5) and (7)
    ([in_equilibrium]).  While a load grows, a system moves at the rates of [rates_under].
 
@@ -60,9 +63,10 @@ Inductive statement :=
   | AllInWindow of point & point & solution_set
   (* All solutions at infinity. *)
   | AllAtInfinity of solution_set
-  (* No solution for a friction between these two and lambda^2 >= 0. *)
+  (* No solution for a friction between these two and lambda^2 >= 0; of a body with radii, of no
+     member. *)
   | NoneForFriction of point & point
-  (* A solution with some lambda^2 >= 0 for each friction between these two. *)
+  (* A solution with some lambda^2 >= 0 for each friction between these two; of each member. *)
   | OneForEachFriction of point & point
   (* In these contact states, for each friction between these two, at most one motion of the
      quasi-static rate problem, whatever load grows. *)
@@ -258,6 +262,31 @@ Definition definite_energy := exists m k,
 Definition stable_at mu := [/\ with_zero B = [::], definite_energy &
   exists form slope drift, loses_energy mu form slope drift].
 
+(* A member: symmetric matrices k and m within the radii, and a positive friction factor of each
+   slip particle within its ends. *)
+Definition given_member radii (k m : nat -> nat -> R) (c : nat -> R) :=
+  [/\ forall d e, d \in iota 0 (degrees B) -> e \in iota 0 (degrees B) ->
+        k d e = k e d /\ m d e = m e d,
+      forall d e, d \in iota 0 (degrees B) -> e \in iota 0 (degrees B) ->
+        `|k d e - given_entry (given_stiffness B) d e| <= given_entry (radii_of_stiffness radii) d e,
+      forall d e, d \in iota 0 (degrees B) -> e \in iota 0 (degrees B) ->
+        `|m d e - given_entry (given_mass B) d e| <= given_entry (radii_of_mass radii) d e &
+      forall j, (j < size (slipping B))%N ->
+        let range := nth ((0, 1), (0, 1))%Z (factor_ranges radii) j in
+        0 < c j /\ fraction range.1 <= c j <= fraction range.2].
+
+(* (9) for a member of a body without particles of zero reaction. *)
+Definition member_moves (k m : nat -> nat -> R) (c : nat -> R) lambda2 mu v :=
+  let w d := \sum_(e <- iota 0 (degrees B)) (k d e + lambda2 * m d e) * v e in
+  [/\ exists2 d, d \in iota 0 (degrees B) & v d != 0,
+      forall d, d \in iota 0 (degrees B) ->
+        d \in dofs_of [seq p <- given_particles B | sticks p] -> v d = 0,
+      forall d, d \in iota 0 (degrees B) -> d \notin held B -> w d = 0 &
+      forall j, (j < size (slipping B))%N -> let p := slip_at j in
+        let slide := toR (sign p) * tangential p v in
+        let cone := toR (sign p) * tangential p w + c j * mu * normal_to p w in
+        [/\ normal_to p v = 0, slide <= 0, cone <= 0 & cone * slide = 0]].
+
 Definition lambda2_at t := if u is Lambda2 _ _ then t else 0.
 Definition friction_at t := if u is Lambda2 m q then fraction (m, q) else t.
 
@@ -364,7 +393,7 @@ Definition semantics_of p :=
   | GivenSystem B u => system_semantics B u
   | GivenPlain rows => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
       (fun _ _ _ => 0) None (fun _ => False) (Some (solves_given rows))
-  | GivenLoads _ => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
+  | GivenMembers _ _ | GivenLoads _ => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
       (fun _ _ _ => 0) None (fun _ => False) None
   end.
 
@@ -459,6 +488,13 @@ Definition meaning p s :=
       forall mu, between mu from bound -> one_motion_of_rates B mu
   | GivenSystem B _, StableForFriction from bound =>
       forall mu, between mu from bound -> 0 < mu -> stable_at B mu
+  | GivenMembers B radii, NoneForFriction from bound => with_zero B = [::] /\
+      forall k m c, given_member B radii k m c ->
+      forall mu t v, between mu from bound -> 0 <= t -> member_moves B k m c t mu v -> False
+  | GivenMembers B radii, OneForEachFriction from bound => with_zero B = [::] /\
+      forall k m c, given_member B radii k m c ->
+      forall mu, between mu from bound -> exists t v, 0 <= t /\ member_moves B k m c t mu v
+  | GivenMembers _ _, _ => False
   | GivenLoads B, InEquilibrium mu amounts states => has_equilibrium B mu amounts states
   | _, _ => meaning_in (semantics_of p) s
   end.

@@ -14,7 +14,8 @@
 From Mceip Require Import Base Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil
   Whole Claim EnclosedClaim Complete System Signs Support Families Lifted ZeroReaction PlainMcp
   Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical CriticalAnchors Presence
-  PresenceAnchors Points Rational Statement Integral Equilibrium Unique Stability Stable.
+  PresenceAnchors Points Rational Statement Integral Members Radii Equilibrium Unique Stability
+  Stable.
 
 (* A claim about the pencil; a motion with its forces; a box around a motion with particles of zero
    reaction. *)
@@ -41,6 +42,10 @@ Inductive evidence :=
   | CoverAtInfinity of seq solution_claim & cover & seq (option support_leaf)
   | Absence of point & point & absence_evidence
   | Presence of point & point & box_anchoring & seq presence_piece
+  (* Of a body with radii: an interval of friction, and the shares of the slip particles over one
+     unit. *)
+  | MembersAbsence of point & point & seq Z & Z & box_anchoring & tree anchored_box_leaf
+  | MembersPresence of point & point & seq Z & Z & box_anchoring & seq presence_piece
   (* An interval of friction, the elimination, and a factor at each end. *)
   | DefiniteRates of point & point & elimination & factor & factor
   (* An interval of friction, the elimination, and what stands at both ends. *)
@@ -161,7 +166,7 @@ Definition answer_infinity Q claims c ls : answered :=
 Definition check_absence z from bound (e : absence_evidence) :=
   match e with
   | ByElimination w tr => check_critical z w tr from bound
-  | ByAnchors w tr => check_anchored_critical z w tr from bound
+  | ByAnchors w tr => check_anchored_critical z None w tr from bound
   end.
 
 (* A system whose unknown is lambda^2. *)
@@ -189,7 +194,7 @@ Definition integral_answer p (e : evidence) : answered :=
       else EvidenceRefused
   | Presence from bound w pieces, _ =>
       if zero_system_of p is Some z
-      then proved_if (check_presence z w pieces from bound) (OneForEachFriction from bound)
+      then proved_if (check_presence z None w pieces from bound) (OneForEachFriction from bound)
       else EvidenceRefused
   | Points points, PlainProblem m => proved_if (check_mcp m points) (PointsSolve points)
   | _, _ => EvidenceRefused
@@ -206,6 +211,12 @@ Definition answer p c (e : evidence) : answered :=
   | GivenLoads B, Equilibrium mu amounts states w =>
       proved_if (check_equilibrium B mu amounts states (entry_scale c) w)
         (InEquilibrium mu amounts states)
+  | GivenMembers B radii, MembersAbsence from bound shares unit w tr =>
+      proved_if (check_radii_absent c B radii shares unit w tr from bound)
+        (NoneForFriction from bound)
+  | GivenMembers B radii, MembersPresence from bound shares unit w pieces =>
+      proved_if (check_radii_present c B radii shares unit w pieces from bound)
+        (OneForEachFriction from bound)
   | GivenSystem B _, DefiniteRates lo hi w low high =>
       proved_if (check_given_rates c B lo hi w low high) (OneMotionOfRates lo hi)
   | GivenSystem B _, Stable lo hi w d low high =>
@@ -416,7 +427,8 @@ Qed.
 Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
 case: e =>
-  [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ?|? ? ? ? ? ?|points|????].
+  [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ? ?|? ? ? ? ? ?|? ? ? ? ?|
+   ? ? ? ? ? ?|points|????].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
@@ -429,6 +441,8 @@ case: e =>
   have [moves -> iff] := moves_of_system eq => mu bm.
   have [t [v [t0 sat]]] := zero_presence_sound ok bm.
   by exists t, v; split=> //; apply/iff.
+- by case: p.
+- by case: p.
 - by case: p.
 - by case: p.
 - case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
@@ -445,11 +459,16 @@ Qed.
 
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
-case: p => [Q|B u|rows|B]; try exact: scaled_sound.
-  case: e => [???|???|???|???|????|lo hi w low high|lo hi w d low high|?|????];
+case: p => [Q|B u|B radii|rows|B]; try exact: scaled_sound.
+- case: e => [???|???|???|???|????|??????|??????|lo hi w low high|lo hi w d low high|?|????];
     try exact: scaled_sound.
     by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
   by rewrite /= /proved_if; case: ifP => // ok [<-] mu bm _; apply: (stability_sound ok bm).
+- case: e => //= [from bound shares unit w tr|from bound shares unit w pieces]; rewrite /proved_if;
+    case: ifP => // ok [<-]; have /andP[ex _] := ok; split; rewrite ?(radii_no_zero ex) // => k m factor
+    member mu.
+    by move=> t v; apply: (radii_absent ok member).
+  exact: (radii_present ok member).
 case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
 exact: equilibrium_sound ok.
 Qed.

@@ -12,6 +12,7 @@ type box = { region : Kernel.region; low : Kernel.point; high : Kernel.point }
 
 type context = {
   zero : Kernel.zero_system;  (* without particles of zero reaction: an empty list of them *)
+  radii : Kernel.part_radii option;  (* of a body that stands for its members *)
   slip : int array;
   free_factor : Z.t;  (* of the free rows *)
   slip_factor : Z.t;  (* of the slip rows of both parts *)
@@ -44,7 +45,7 @@ let by_whole c negative box =
     let pencil, weights = whole_pencil c e in
     spend pencil.order;
     signed_whole_leaf pencil weights negative box.region in
-  if negative && c.zero.zero_particles <> [] then None
+  if c.radii <> None || (negative && c.zero.zero_particles <> []) then None
   else match at box.low with
     | None -> None
     | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at box.high)
@@ -187,7 +188,7 @@ let regular_box parts k (region : Kernel.region) box =
 (* The factors of the certificate, where the box is that of the tail. *)
 let by_tail c box =
   match c.tail with
-  | Some tail when Q.equal tail.from (value_of box.region.lower) && not (finite box.region.upper)
+  | Some tail when c.radii = None && Q.equal tail.from (value_of box.region.lower) && not (finite box.region.upper)
                    && box.low = c.mu_low && box.high = c.mu_high ->
     let at e (factor, mass_factor) =
       let pencil, whole_weights = whole_pencil c e in
@@ -253,12 +254,27 @@ let anchored_of c plain friction slip (condensation : critical_condensation) use
       mass_below = form_bound nf c.free_factor given.mass_sigma given.mass_factor;
       box_anchors = List.map (fun (a, l) -> box_anchor c plain friction slip a l) chosen } in
   { plain_pencil = plain; anchoring;
-    families = Array.of_list (Kernel.box_expansions c.zero anchoring);
+    families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring);
     numbers = List.mapi (fun i k -> (k, i)) used }
 
 let anchors_of_boxes pieces =
   List.sort_uniq compare (List.filter_map (fun piece ->
       if needs_anchor piece then Some piece.box_anchor else None) pieces)
+
+(* Without free variables: anchors without matrices for t and for 1/t, in a unit that leaves the
+   rounding small. *)
+let anchored_without_free c (plain : Kernel.pencil) friction slip =
+  let bound = { trivial_bound with Kernel.bound_at = Z.one } in
+  let anchor reversed_anchor =
+    { Kernel.reversed_anchor;
+      plain_anchor =
+        { Kernel.anchor_center = Kernel.zero; anchor_unit = two_to 64; anchor_right = [];
+          anchor_left = []; anchor_scale = common_scales plain friction slip c.slip_factor };
+      friction_left = [] } in
+  let anchoring =
+    { Kernel.stiffness_below = bound; mass_below = bound; box_anchors = [anchor false; anchor true] } in
+  { plain_pencil = plain; anchoring;
+    families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring); numbers = [] }
 
 (* The local pencils of both parts over the interval of a region, and their grain. *)
 let new_local_parts ?grain c v n (region : Kernel.region) =
@@ -280,7 +296,8 @@ let new_local_parts ?grain c v n (region : Kernel.region) =
     else begin
       let make grain =
         Kernel.local_pencil ns a low_a low_b family lo hi false grain,
-        Kernel.local_pencil ns a' low_a low_b family' lo hi false grain in
+        Kernel.widened c.radii
+          (Kernel.local_pencil ns a' low_a low_b family' lo hi false grain) in
       let chosen () =
         let plain, friction = make Z.one in
         let largest (p : Kernel.enclosed) =
@@ -399,6 +416,24 @@ let leaf_of_parts c parts _ box node =
         Option.bind parts (fun parts -> regular_box parts k box.region box)] box
   | BoxTail -> found "tail" [by_tail c; by_whole c false]
   | _ -> no_witness "a condensation is missing"
+
+(* For members: the first anchor where the interval is finite, the second one towards infinity. *)
+let member_leaf_without_free c v _ box node =
+  no_leaf node;
+  let number box =
+    if finite box.region.upper then Some 0
+    else if Z.sign (fst box.region.lower) > 0 then Some 1 else None in
+  let closed what directions make =
+    let way box = Option.bind (number box) (fun n -> about c v n box (make box)) in
+    close what directions [way] box in
+  let definite negative box parts region = definite_box parts negative region box in
+  match node with
+  | BoxFarkas w -> closed "farkas" six_times (fun _ _ _ -> Some (Kernel.BoxFarkas w))
+  | BoxDefinite negative -> closed "definite" six_times (definite negative)
+  | BoxRegular pivot ->
+    let k = position c.slip pivot in
+    closed "regular" in_turn (fun box parts region -> regular_box parts k region box)
+  | _ -> closed "tail" six_times (definite false)
 
 (* ---------- trees *)
 

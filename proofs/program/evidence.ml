@@ -504,6 +504,11 @@ let zero_parts (problem : Scaling.t) (certificate : Certificate.t) zero unknown 
   parts certificate (fun () -> zero_claims problem certificate zero unknown) cover
 
 (* The context of a statement about an interval of mu; rejects a problem that has none. *)
+(* Radii are refused by name directly after the digest. *)
+let require_one_body (problem : Scaling.t) digest =
+  if digest = problem.digest && problem.members <> None then
+    raise (Rejected "radii: this kind of certificate speaks of one body")
+
 let context_of_friction (problem : Scaling.t) digest condensation (low, high) tail =
   if digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
@@ -524,7 +529,8 @@ let context_of_friction (problem : Scaling.t) digest condensation (low, high) ta
     Problem.not_verified "more than 300 complementarity variables";
   let slip_factor = Z.mul problem.common system.unit_length in
   let context =
-    { Critical.zero; slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
+    { Critical.zero; radii = Option.map (fun (m : Scaling.members) -> m.radii) problem.members;
+      slip = Array.of_list slip_list; free_factor = problem.common; slip_factor;
       tail; mu_low = Problem.point_of low; mu_high = Problem.point_of high } in
   context, slip_list
 
@@ -553,9 +559,24 @@ let absence (problem : Scaling.t) (certificate : Certificate.critical) () =
           (Critical.build context (Critical.anchored_leaf context anchored)
              (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
     Kernel.ByAnchors (anchored.anchoring, tree) in
-  Kernel.Absence (context.mu_low, context.mu_high, match condensation with
-    | None -> without_free_variables ()
-    | Some condensation -> about_anchors condensation)
+  let of_members (members : Scaling.members) =
+    let anchored = timed "condensation" (fun () -> match condensation with
+        | None -> Critical.anchored_without_free context plain friction slip_list
+        | Some condensation ->
+          Critical.anchored_of context plain friction slip_list condensation
+            (Critical.anchors_of_boxes pieces)) in
+    let leaf = if condensation = None then Critical.member_leaf_without_free context anchored
+      else Critical.anchored_leaf context anchored in
+    let tree = timed "elaboration" (fun () ->
+        Critical.join
+          (Critical.build context leaf (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
+    Kernel.MembersAbsence (context.mu_low, context.mu_high, members.shares, members.share_unit,
+                           anchored.anchoring, tree) in
+  match problem.members, condensation with
+  | Some members, _ -> of_members members
+  | None, None -> Kernel.Absence (context.mu_low, context.mu_high, without_free_variables ())
+  | None, Some condensation ->
+    Kernel.Absence (context.mu_low, context.mu_high, about_anchors condensation)
 
 (* A solution of a system with some lambda^2 >= 0 for each mu in [from, to]. *)
 let presence (problem : Scaling.t) (certificate : Certificate.presence) () =
@@ -565,15 +586,20 @@ let presence (problem : Scaling.t) (certificate : Certificate.presence) () =
   let plain = Kernel.part_plain zero and friction = Kernel.part_friction zero in
   let pieces = certificate.presence_pieces in
   let anchored = timed "condensation" (fun () -> match certificate.presence_condensation with
-      | None -> Presence.anchored_without_free context plain friction slip_list
+      | None -> Critical.anchored_without_free context plain friction slip_list
       | Some condensation ->
         Critical.anchored_of context plain friction slip_list condensation
           (Presence.anchors_of_pieces pieces)) in
   let kernel_pieces = timed "elaboration" (fun () -> Presence.build context anchored pieces) in
-  Kernel.Presence (context.mu_low, context.mu_high, anchored.anchoring, kernel_pieces)
+  match problem.members with
+  | None -> Kernel.Presence (context.mu_low, context.mu_high, anchored.anchoring, kernel_pieces)
+  | Some members ->
+    Kernel.MembersPresence (context.mu_low, context.mu_high, members.shares, members.share_unit,
+                            anchored.anchoring, kernel_pieces)
 
 (* What shows that an equilibrium is stable for mu in [from, to]. *)
 let stability (problem : Scaling.t) (certificate : Certificate.stability) () =
+  require_one_body problem certificate.stable_digest;
   let context, _ = context_of_friction problem certificate.stable_digest
       certificate.stable_condensation (certificate.stable_from, certificate.stable_to) None in
   if context.zero.zero_particles <> [] then raise (Rejected "a particle in state zero");
@@ -619,6 +645,7 @@ let require_window holds wanted (certificate : Certificate.t) =
 
 (* The parts of the evidence, each as a function that makes it. *)
 let complete (problem : Scaling.t) (certificate : Certificate.t) =
+  require_one_body problem certificate.digest;
   require_question problem certificate;
   if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
   let cover_of q =
@@ -652,6 +679,8 @@ let rates (problem : Scaling.t) (certificate : Certificate.t) =
 (* All solutions at infinity: the certificate is one of the reversed problem, over [0, 0].  Claims
    are about this problem. *)
 let infinity (problem : Scaling.t) (certificate : Certificate.t) =
+  if problem.members <> None then
+    raise (Rejected "radii: this kind of certificate speaks of one body");
   (match problem.question with
    | ZeroProblem _ -> Problem.not_verified "infinity with zero reaction"
    | _ -> ());

@@ -3579,7 +3579,8 @@ type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
                 anchor_scale : Big_int_Z.big_int list }
 
 type anchor_family = { series_z : matrix list; left_norms : polynomial list;
-                       right_norms : polynomial list; drift : Big_int_Z.big_int }
+                       right_norms : polynomial list; drift : Big_int_Z.big_int;
+                       spread_z : matrix list }
 
 type local_entry = { local_a : Big_int_Z.big_int; local_b : Big_int_Z.big_int;
                      local_ra : Big_int_Z.big_int; local_rb : Big_int_Z.big_int }
@@ -3625,21 +3626,33 @@ let ss_block q row =
   map0 (fun i -> let entries = row i in map0 (fun j -> lookup entries j) columns) columns
 
 (** val residual_series :
-    anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list -> matrix list **)
+    anchor -> Big_int_Z.big_int -> sparse_row list -> sparse_row list -> matrix list -> matrix
+    list -> matrix list **)
 
-let residual_series a f0 f1 y x =
+let residual_series a sign0 f0 f1 y x =
   add_series (scale_series a.anchor_unit y)
-    (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
-      (add_series (product_series f0 x) ([] :: (product_series f1 x))))
+    (scale_series sign0 (add_series (product_series f0 x) ([] :: (product_series f1 x))))
 
-(** val center_series : pencil -> anchor -> matrix list -> matrix list **)
+(** val residual_right : pencil -> anchor -> Big_int_Z.big_int -> matrix list **)
 
-let center_series q a r =
+let residual_right q a sign0 =
+  residual_series a sign0 (ff_block q (row_0 q a)) (ff_block q (row_1 q a))
+    ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: [])) a.anchor_right
+
+(** val residual_left : pencil -> anchor -> Big_int_Z.big_int -> matrix list **)
+
+let residual_left q a sign0 =
+  residual_series a sign0 (ff_block q (row_0 q a)) (ff_block q (row_1 q a))
+    ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: [])) a.anchor_left
+
+(** val center_series : pencil -> anchor -> Big_int_Z.big_int -> matrix list -> matrix list **)
+
+let center_series q a sign0 r =
   let u = a.anchor_unit in
   add_series
     (scale_series (Big_int_Z.mult_big_int u u)
       ((ss_block q (row_0 q a)) :: ((ss_block q (row_1 q a)) :: [])))
-    (scale_series (Big_int_Z.minus_big_int Big_int_Z.unit_big_int)
+    (scale_series sign0
       (add_series
         (scale_series u
           (cross_series (size (slip q))
@@ -3656,10 +3669,10 @@ let row_sum row =
     pencil -> anchor -> sparse_row list -> matrix list -> matrix list -> anchor_family **)
 
 let expand_from q a f1 l r =
-  { series_z = (center_series q a r); left_norms =
-    (map0 (fun i -> norms0 l i) (iota 0 (size (slip q)))); right_norms =
+  { series_z = (center_series q a (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) r);
+    left_norms = (map0 (fun i -> norms0 l i) (iota 0 (size (slip q)))); right_norms =
     (map0 (fun j -> norms0 r j) (iota 0 (size (slip q)))); drift =
-    (foldr Big_int_Z.max_big_int Big_int_Z.zero_big_int (map0 row_sum f1)) }
+    (foldr Big_int_Z.max_big_int Big_int_Z.zero_big_int (map0 row_sum f1)); spread_z = [] }
 
 (** val small : pencil -> matrix list -> bool **)
 
@@ -3672,12 +3685,12 @@ let expand q a =
   let f0 = ff_block q (row_0 q a) in
   let f1 = ff_block q (row_1 q a) in
   let l =
-    residual_series a f0 f1 ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: []))
-      a.anchor_left
+    residual_series a (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) f0 f1
+      ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: [])) a.anchor_left
   in
   let r =
-    residual_series a f0 f1 ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: []))
-      a.anchor_right
+    residual_series a (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) f0 f1
+      ((fs_block q (row_0 q a)) :: ((fs_block q (row_1 q a)) :: [])) a.anchor_right
   in
   if (&&) (Z.ltb Big_int_Z.zero_big_int (snd a.anchor_center))
        ((&&) (Z.ltb Big_int_Z.zero_big_int a.anchor_unit)
@@ -3688,6 +3701,65 @@ let expand q a =
            ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
   then Some (expand_from q a f1 l r)
   else None
+
+(** val radii_pencil : pencil -> (sparse_row list * sparse_row list) -> pencil **)
+
+let radii_pencil q radii =
+  { order = q.order; rows_a = (fst radii); rows_b = (snd radii); free = q.free }
+
+(** val absolute : matrix list -> matrix list **)
+
+let absolute l =
+  map0 (fun m -> map0 (fun row -> map0 Big_int_Z.abs_big_int row) m) l
+
+(** val absolute_anchor : anchor -> anchor **)
+
+let absolute_anchor a =
+  { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit; anchor_right =
+    (absolute a.anchor_right); anchor_left = (absolute a.anchor_left); anchor_scale =
+    a.anchor_scale }
+
+(** val widened_family :
+    pencil -> anchor -> (sparse_row list * sparse_row list) -> anchor_family -> anchor_family
+    option **)
+
+let widened_family q a radii fam =
+  let l = residual_left (radii_pencil q radii) (absolute_anchor a) Big_int_Z.unit_big_int in
+  let r = residual_right (radii_pencil q radii) (absolute_anchor a) Big_int_Z.unit_big_int in
+  let added = fun n l0 ->
+    map0 (fun i -> add_poly (nth [] n i) (norms0 l0 i)) (iota 0 (size (slip q)))
+  in
+  if (&&) (small q l) (small q r)
+  then Some { series_z = fam.series_z; left_norms = (added fam.left_norms l); right_norms =
+         (added fam.right_norms r); drift = fam.drift; spread_z =
+         (center_series (radii_pencil q radii) (absolute_anchor a) Big_int_Z.unit_big_int r) }
+  else None
+
+(** val expand_member :
+    pencil -> (sparse_row list * sparse_row list) option -> anchor -> anchor_family option **)
+
+let expand_member q radii a =
+  match expand q a with
+  | Some fam -> (match radii with
+                 | Some rad -> widened_family q a rad fam
+                 | None -> Some fam)
+  | None -> None
+
+(** val lowered : sparse_row list -> sparse_row list -> sparse_row list **)
+
+let lowered rows radii =
+  map0 (fun i -> (i, (Big_int_Z.minus_big_int (row_sum (nth [] radii i)))) :: (nth [] rows i))
+    (iota 0 (size rows))
+
+(** val lowered_block :
+    pencil -> (pencil -> int -> sparse_row) -> (sparse_row list * sparse_row list) option ->
+    sparse_row list **)
+
+let lowered_block q row radii =
+  let block = ff_block q (row q) in
+  (match radii with
+   | Some rad -> lowered block (ff_block q (row (radii_pencil q rad)))
+   | None -> block)
 
 (** val interval_width : point -> point -> Big_int_Z.big_int **)
 
@@ -3796,9 +3868,9 @@ let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
     anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool -> polynomial
     -> (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
     (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-    local_entry **)
+    (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry **)
 
-let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
+let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr e =
   let c = substituted (offset a lo hi) (extent a lo hi) (unit_y a lo hi) z0 in
   let rb =
     if slopes
@@ -3818,8 +3890,9 @@ let entry_of a low_a low_b fam lo hi slopes z0 nl nr dl dr =
   (Big_int_Z.add_big_int
     (Big_int_Z.add_big_int (spread0 (fst c))
       (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 (Big_int_Z.mult_int_big_int 2
-        Big_int_Z.unit_big_int)) (remainder_radius a low_a low_b lo (snd c) nl nr))) rb);
-  local_rb = rb }
+        Big_int_Z.unit_big_int))
+        (Big_int_Z.add_big_int (divide_up (Big_int_Z.mult_big_int (snd c) (fst e)) (snd e))
+          (remainder_radius a low_a low_b lo (snd c) nl nr)))) rb); local_rb = rb }
 
 (** val rounded : Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry **)
 
@@ -3846,7 +3919,8 @@ let local_entries ns a low_a low_b fam lo hi slopes grain =
     map0 (fun j ->
       rounded grain (nth Big_int_Z.zero_big_int a.anchor_scale i)
         (entry_of a low_a low_b fam lo hi slopes (poly_of fam.series_z i j) (get nl i)
-          (get nr j) (get dl i) (get dr j))) (iota 0 ns)) (iota 0 ns)
+          (get nr j) (get dl i) (get dr j) (at_reach (poly_of fam.spread_z i j)))) (iota 0 ns))
+    (iota 0 ns)
 
 (** val local_pencil :
     int -> anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool ->
@@ -4555,24 +4629,59 @@ type anchored_box_leaf =
 | AboutAnchor of int * Big_int_Z.big_int * critical_leaf tree
 | WithoutAnchor of critical_leaf
 
+type part_radii = { plain_radii : (sparse_row list * sparse_row list);
+                    friction_radii : (sparse_row list * sparse_row list);
+                    friction_shares : Big_int_Z.big_int list; share_unit : Big_int_Z.big_int }
+
+(** val widened : part_radii option -> enclosed -> enclosed **)
+
+let widened radii p =
+  match radii with
+  | Some rad ->
+    let ix = iota 0 p.size_of in
+    let wider = fun center0 radius0 ->
+      map0 (fun i ->
+        let share = nth Big_int_Z.zero_big_int rad.friction_shares i in
+        map0 (fun j ->
+          let r = entry radius0 i j in
+          Big_int_Z.add_big_int r
+            (divide_up
+              (Big_int_Z.mult_big_int share
+                (Big_int_Z.add_big_int (Big_int_Z.abs_big_int (entry center0 i j)) r))
+              rad.share_unit)) ix) ix
+    in
+    { size_of = p.size_of; center_a = p.center_a; center_b = p.center_b; radius_a =
+    (wider p.center_a p.radius_a); radius_b = (wider p.center_b p.radius_b) }
+  | None -> p
+
+(** val swapped_radii :
+    (sparse_row list * sparse_row list) option -> (sparse_row list * sparse_row list) option **)
+
+let swapped_radii radii =
+  Option.map (fun rad -> ((snd rad), (fst rad))) radii
+
 (** val friction_anchor : anchor -> matrix list -> anchor **)
 
 let friction_anchor a other =
   { anchor_center = a.anchor_center; anchor_unit = a.anchor_unit; anchor_right =
     a.anchor_right; anchor_left = other; anchor_scale = a.anchor_scale }
 
-(** val expand_part : pencil -> bool -> anchor -> anchor_family option **)
+(** val expand_part :
+    pencil -> (sparse_row list * sparse_row list) option -> bool -> anchor -> anchor_family
+    option **)
 
-let expand_part q reverse a =
-  if reverse then expand (swap_pencil q) a else expand q a
+let expand_part q rad reverse a =
+  if reverse then expand_member (swap_pencil q) (swapped_radii rad) a else expand_member q rad a
 
-(** val expand_box : zero_system -> box_anchor -> (anchor_family * anchor_family) option **)
+(** val expand_box :
+    zero_system -> part_radii option -> box_anchor -> (anchor_family * anchor_family) option **)
 
-let expand_box z0 b =
-  match expand_part (part_plain z0) b.reversed_anchor b.plain_anchor with
+let expand_box z0 radii b =
+  match expand_part (part_plain z0) (Option.map (fun p -> p.plain_radii) radii)
+          b.reversed_anchor b.plain_anchor with
   | Some fam ->
-    (match expand_part (part_friction z0) b.reversed_anchor
-             (friction_anchor b.plain_anchor b.friction_left) with
+    (match expand_part (part_friction z0) (Option.map (fun p -> p.friction_radii) radii)
+             b.reversed_anchor (friction_anchor b.plain_anchor b.friction_left) with
      | Some fam' -> Some (fam, fam')
      | None -> None)
   | None -> None
@@ -4593,10 +4702,11 @@ let local_part z0 low_a low_b a fam lo hi grain =
   local_pencil (slip_number z0) a low_a low_b fam lo hi false grain
 
 (** val check_about :
-    zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
-    Big_int_Z.big_int -> region -> point -> point -> critical_leaf tree -> bool **)
+    zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point -> point ->
+    critical_leaf tree -> bool **)
 
-let check_about z0 low_a low_b b fams grain r low high tr =
+let check_about z0 radii low_a low_b b fams grain r low high tr =
   let a = b.plain_anchor in
   let a' = friction_anchor a b.friction_left in
   (&&) (proper_interval a low_a low_b r.lower r.upper)
@@ -4607,7 +4717,7 @@ let check_about z0 low_a low_b b fams grain r low high tr =
         (check_boxes (slip_number z0)
           (check_local_leaf (both_halves z0)
             (local_part z0 low_a low_b a (fst fams) r.lower r.upper grain)
-            (local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain)) tr
+            (widened radii (local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain))) tr
           (local_region r) low high)))
 
 (** val no_box_anchor : box_anchor **)
@@ -4618,51 +4728,58 @@ let no_box_anchor =
     friction_left = [] }
 
 (** val box_expansions :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list **)
+    zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+    list **)
 
-let box_expansions z0 w =
-  map0 (fun b -> expand_box z0 b) w.box_anchors
+let box_expansions z0 radii w =
+  map0 (fun b -> expand_box z0 radii b) w.box_anchors
 
 (** val check_anchored_box :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> region ->
-    point -> point -> anchored_box_leaf -> bool **)
+    zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+    list -> region -> point -> point -> anchored_box_leaf -> bool **)
 
-let check_anchored_box z0 w families0 r low high = function
+let check_anchored_box z0 radii w families0 r low high = function
 | AboutAnchor (n, grain, tr') ->
   let b = nth no_box_anchor w.box_anchors n in
   (match nth None families0 n with
    | Some fams ->
      if b.reversed_anchor
      then (&&) (Z.ltb Big_int_Z.zero_big_int (fst r.lower))
-            (check_about z0 w.mass_below w.stiffness_below b fams grain (swap_region r) low
-              high tr')
-     else check_about z0 w.stiffness_below w.mass_below b fams grain r low high tr'
+            (check_about z0 radii w.mass_below w.stiffness_below b fams grain (swap_region r)
+              low high tr')
+     else check_about z0 radii w.stiffness_below w.mass_below b fams grain r low high tr'
    | None -> false)
-| WithoutAnchor l0 -> check_whole_leaf z0 r low high l0
+| WithoutAnchor l0 ->
+  (match radii with
+   | Some _ -> false
+   | None -> check_whole_leaf z0 r low high l0)
 
-(** val both_bounded : zero_system -> box_anchoring -> bool **)
+(** val both_bounded : zero_system -> part_radii option -> box_anchoring -> bool **)
 
-let both_bounded z0 w =
+let both_bounded z0 radii w =
+  let plain = Option.map (fun p -> p.plain_radii) radii in
+  let friction = Option.map (fun p -> p.friction_radii) radii in
   (&&)
     (bounded_rows (Obj.magic size (part_plain z0).free)
-      (ff_block (part_plain z0) (row_a (part_plain z0))) w.stiffness_below)
+      (lowered_block (part_plain z0) row_a plain) w.stiffness_below)
     ((&&)
       (bounded_rows (Obj.magic size (part_plain z0).free)
-        (ff_block (part_plain z0) (row_b (part_plain z0))) w.mass_below)
+        (lowered_block (part_plain z0) row_b plain) w.mass_below)
       ((&&)
         (bounded_rows (Obj.magic size (part_friction z0).free)
-          (ff_block (part_friction z0) (row_a (part_friction z0))) w.stiffness_below)
+          (lowered_block (part_friction z0) row_a friction) w.stiffness_below)
         (bounded_rows (Obj.magic size (part_friction z0).free)
-          (ff_block (part_friction z0) (row_b (part_friction z0))) w.mass_below)))
+          (lowered_block (part_friction z0) row_b friction) w.mass_below)))
 
 (** val check_anchored_critical :
-    zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool **)
+    zero_system -> part_radii option -> box_anchoring -> anchored_box_leaf tree -> point ->
+    point -> bool **)
 
-let check_anchored_critical z0 w tr from bound1 =
-  let families0 = box_expansions z0 w in
+let check_anchored_critical z0 radii w tr from bound1 =
+  let families0 = box_expansions z0 radii w in
   (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
-    ((&&) ((||) (nilp w.box_anchors) (both_bounded z0 w))
-      (check_boxes (slip_number z0) (check_anchored_box z0 w families0) tr
+    ((&&) ((||) (nilp w.box_anchors) (both_bounded z0 radii w))
+      (check_boxes (slip_number z0) (check_anchored_box z0 radii w families0) tr
         (window zero infinity) from bound1))
 
 type presence = { presence_box : regular; presence_start : regular; presence_finish : regular }
@@ -4734,22 +4851,26 @@ type presence_piece = { piece_end : point; piece_region : region; piece_anchor :
                         piece_before : point; piece_witness : presence }
 
 (** val ends_over :
-    zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
-    Big_int_Z.big_int -> point -> point -> point -> point -> enclosed * enclosed **)
+    zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> point -> point -> point -> point ->
+    enclosed * enclosed **)
 
-let ends_over z0 low_a low_b b fams grain low high lo hi =
+let ends_over z0 radii low_a low_b b fams grain low high lo hi =
   let a = b.plain_anchor in
   let p = local_part z0 low_a low_b a (fst fams) lo hi grain in
-  let p' = local_part z0 low_a low_b (friction_anchor a b.friction_left) (snd fams) lo hi grain
+  let p' =
+    widened radii
+      (local_part z0 low_a low_b (friction_anchor a b.friction_left) (snd fams) lo hi grain)
   in
   ((mixed low p p'), (mixed high p p'))
 
 (** val check_present :
-    zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
-    Big_int_Z.big_int -> region -> point -> point -> point -> point -> presence -> bool **)
+    zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
+    (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point -> point -> point
+    -> point -> presence -> bool **)
 
-let check_present z0 low_a low_b b fams grain r low high after before v =
-  let over = ends_over z0 low_a low_b b fams grain low high in
+let check_present z0 radii low_a low_b b fams grain r low high after before v =
+  let over = ends_over z0 radii low_a low_b b fams grain low high in
   let proper = proper_interval b.plain_anchor low_a low_b in
   (&&) (proper r.lower r.upper)
     ((&&) ((&&) (proper r.lower after) (proper before r.upper))
@@ -4761,10 +4882,10 @@ let check_present z0 low_a low_b b fams grain r low high after before v =
             (over before r.upper) (local_region r) v))))
 
 (** val check_piece :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
-    presence_piece -> bool **)
+    zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+    list -> point -> presence_piece -> bool **)
 
-let check_piece z0 w families0 low p =
+let check_piece z0 radii w families0 low p =
   let b = nth no_box_anchor w.box_anchors p.piece_anchor in
   let r = p.piece_region in
   (&&) ((&&) (ordered low p.piece_end) (halves_apart z0 r))
@@ -4772,38 +4893,39 @@ let check_piece z0 w families0 low p =
      | Some fams ->
        if b.reversed_anchor
        then (&&) (Z.ltb Big_int_Z.zero_big_int (snd r.upper))
-              (check_present z0 w.mass_below w.stiffness_below b fams p.piece_grain
+              (check_present z0 radii w.mass_below w.stiffness_below b fams p.piece_grain
                 (swap_region r) low p.piece_end p.piece_after p.piece_before p.piece_witness)
-       else check_present z0 w.stiffness_below w.mass_below b fams p.piece_grain r low
+       else check_present z0 radii w.stiffness_below w.mass_below b fams p.piece_grain r low
               p.piece_end p.piece_after p.piece_before p.piece_witness
      | None -> false)
 
 (** val check_pieces :
-    zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
-    presence_piece list -> point -> bool **)
+    zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+    list -> point -> presence_piece list -> point -> bool **)
 
-let rec check_pieces z0 w families0 low pieces bound1 =
+let rec check_pieces z0 radii w families0 low pieces bound1 =
   match pieces with
   | [] -> false
   | p :: rest0 ->
     (match rest0 with
      | [] ->
-       (&&) (check_piece z0 w families0 low p)
+       (&&) (check_piece z0 radii w families0 low p)
          (Z.leb (Big_int_Z.mult_big_int (fst bound1) (snd p.piece_end))
            (Big_int_Z.mult_big_int (fst p.piece_end) (snd bound1)))
      | _ :: _ ->
-       (&&) (check_piece z0 w families0 low p)
-         (check_pieces z0 w families0 p.piece_end rest0 bound1))
+       (&&) (check_piece z0 radii w families0 low p)
+         (check_pieces z0 radii w families0 p.piece_end rest0 bound1))
 
 (** val check_presence :
-    zero_system -> box_anchoring -> presence_piece list -> point -> point -> bool **)
+    zero_system -> part_radii option -> box_anchoring -> presence_piece list -> point -> point
+    -> bool **)
 
-let check_presence z0 w pieces from bound1 =
-  let families0 = box_expansions z0 w in
+let check_presence z0 radii w pieces from bound1 =
+  let families0 = box_expansions z0 radii w in
   (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
-    ((&&) (both_bounded z0 w)
+    ((&&) (both_bounded z0 radii w)
       ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
-        (check_pieces z0 w families0 from pieces bound1)))
+        (check_pieces z0 radii w families0 from pieces bound1)))
 
 (** val one_half : zero_system -> int list -> int -> bool **)
 
@@ -5049,6 +5171,10 @@ type given_particle = { first_of : int; second_of : int; contact_of : contact;
 type rational_system = { degrees : int; given_stiffness : rational_row list;
                          given_mass : rational_row list; given_particles : given_particle list }
 
+type rational_radii = { radii_of_stiffness : rational_row list;
+                        radii_of_mass : rational_row list;
+                        factor_ranges : (rational0 * rational0) list }
+
 type rational_mcp_row = { given_m : rational_row; given_q : rational0;
                           given_lower : rational0 option; given_upper : rational0 option }
 
@@ -5062,6 +5188,7 @@ type rational_body = { body_degrees : int; body_stiffness : rational_row list;
 type problem =
 | GivenPencil of rational_pencil
 | GivenSystem of rational_system * unknown
+| GivenMembers of rational_system * rational_radii
 | GivenPlain of rational_mcp_row list
 | GivenLoads of rational_body
 
@@ -5245,7 +5372,7 @@ let scaled c = function
   if (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale) (all (exact_mcp_row c) rows)
   then Some (PlainProblem (map0 (fun r -> scaled_mcp_row c r) rows))
   else None
-| GivenLoads _ -> None
+| _ -> None
 
 (** val pencil_of_integral : integral -> pencil **)
 
@@ -5323,6 +5450,138 @@ let integral_wellformed = function
 | SystemProblem (s, u) -> system_wellformed s u
 | ZeroProblem (z0, u) -> zero_wellformed z0 u
 | _ -> true
+
+type system_radii = { stiffness_radii : sparse_row list; mass_radii : sparse_row list;
+                      factor_shares : Big_int_Z.big_int list; factor_unit : Big_int_Z.big_int }
+
+(** val absolute_table : system -> sparse_row list **)
+
+let absolute_table s =
+  map0 (fun row -> map0 (fun e -> ((fst e), (Big_int_Z.abs_big_int (snd e)))) row)
+    (zero_table { without_zero = s; zero_particles = [] })
+
+(** val part_direction : Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar **)
+
+let part_direction m q p =
+  direction (Big_int_Z.mult_big_int q p.sign_of) m p
+
+(** val radius_form :
+    system -> sparse_row list -> Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row **)
+
+let radius_form s rows m q i =
+  if leq (Natural.succ i) (free_number s)
+  then nth [] rows (nth 0 s.free_dofs i)
+  else let p = particle s (subn i (free_number s)) in
+       let e = part_direction m q p in
+       at_both (nth [] rows) p ((Big_int_Z.abs_big_int (fst e)),
+         (Big_int_Z.abs_big_int (snd e)))
+
+(** val radius_rows :
+    system -> sparse_row list -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row list **)
+
+let radius_rows s rows m q =
+  map0 (fun i -> table_row (absolute_table s) (radius_form s rows m q i))
+    (iota 0 (part_plain { without_zero = s; zero_particles = [] }).order)
+
+(** val radii_of_parts : system -> system_radii -> part_radii **)
+
+let radii_of_parts s rad =
+  { plain_radii =
+    ((radius_rows s rad.stiffness_radii Big_int_Z.zero_big_int Big_int_Z.unit_big_int),
+    (radius_rows s rad.mass_radii Big_int_Z.zero_big_int Big_int_Z.unit_big_int));
+    friction_radii =
+    ((radius_rows s rad.stiffness_radii Big_int_Z.unit_big_int Big_int_Z.zero_big_int),
+    (radius_rows s rad.mass_radii Big_int_Z.unit_big_int Big_int_Z.zero_big_int));
+    friction_shares = rad.factor_shares; share_unit = rad.factor_unit }
+
+(** val radii_wellformed : system -> system_radii -> bool **)
+
+let radii_wellformed s rad =
+  (&&) (Z.ltb Big_int_Z.zero_big_int rad.factor_unit)
+    ((&&) (columns_in_range s rad.stiffness_radii) (columns_in_range s rad.mass_radii))
+
+(** val check_members_absent :
+    system -> system_radii -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool **)
+
+let check_members_absent s rad w tr from bound1 =
+  (&&) (radii_wellformed s rad)
+    ((&&)
+      (both_bounded { without_zero = s; zero_particles = [] } (Some (radii_of_parts s rad)) w)
+      (check_anchored_critical { without_zero = s; zero_particles = [] } (Some
+        (radii_of_parts s rad)) w tr from bound1))
+
+(** val check_members_present :
+    system -> system_radii -> box_anchoring -> presence_piece list -> point -> point -> bool **)
+
+let check_members_present s rad w pieces from bound1 =
+  (&&) (radii_wellformed s rad)
+    (check_presence { without_zero = s; zero_particles = [] } (Some (radii_of_parts s rad)) w
+      pieces from bound1)
+
+(** val scaled_radii :
+    scales -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int -> system_radii **)
+
+let scaled_radii c radii shares unit0 =
+  { stiffness_radii =
+    (map0 (fun row -> scaled_row c.entry_scale row) radii.radii_of_stiffness); mass_radii =
+    (map0 (fun row -> scaled_row c.entry_scale row) radii.radii_of_mass); factor_shares =
+    shares; factor_unit = unit0 }
+
+(** val range_in_share :
+    Big_int_Z.big_int -> rational0 -> (rational0 * rational0) -> Big_int_Z.big_int -> bool **)
+
+let range_in_share unit0 f range share =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd (fst range)))
+    ((&&) (Z.ltb Big_int_Z.zero_big_int (snd (snd range)))
+      ((&&)
+        (Z.leb
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst f) (snd (fst range)))
+            (Big_int_Z.sub_big_int unit0 share))
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst (fst range)) (snd f)) unit0))
+        (Z.leb
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst (snd range)) (snd f)) unit0)
+          (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst f) (snd (snd range)))
+            (Big_int_Z.add_big_int unit0 share)))))
+
+(** val exact_radii :
+    scales -> rational_system -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    -> bool **)
+
+let exact_radii c b radii shares unit0 =
+  (&&) (exact_system c b)
+    ((&&) (nilp (with_zero b))
+      ((&&) (exact_rows c.entry_scale radii.radii_of_stiffness)
+        ((&&) (exact_rows c.entry_scale radii.radii_of_mass)
+          ((&&) (Z.ltb Big_int_Z.zero_big_int unit0)
+            (all (fun j ->
+              range_in_share unit0
+                (nth { first_of = 0; second_of = 0; contact_of = NotInContact; frame_tangent =
+                  ((Big_int_Z.zero_big_int, Big_int_Z.unit_big_int), (Big_int_Z.zero_big_int,
+                  Big_int_Z.unit_big_int)); frame_normal = ((Big_int_Z.zero_big_int,
+                  Big_int_Z.unit_big_int), (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int));
+                  into_obstacle = Big_int_Z.zero_big_int; factor_of = (Big_int_Z.zero_big_int,
+                  Big_int_Z.unit_big_int) } (slipping b) j).factor_of
+                (nth ((Big_int_Z.zero_big_int, Big_int_Z.unit_big_int),
+                  (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)) radii.factor_ranges j)
+                (nth Big_int_Z.zero_big_int shares j)) (iota 0 (size (slipping b))))))))
+
+(** val check_radii_absent :
+    scales -> rational_system -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool **)
+
+let check_radii_absent c b radii shares unit0 w tr from bound1 =
+  (&&) (exact_radii c b radii shares unit0)
+    (check_members_absent (scaled_system c b) (scaled_radii c radii shares unit0) w tr from
+      bound1)
+
+(** val check_radii_present :
+    scales -> rational_system -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int
+    -> box_anchoring -> presence_piece list -> point -> point -> bool **)
+
+let check_radii_present c b radii shares unit0 w pieces from bound1 =
+  (&&) (exact_radii c b radii shares unit0)
+    (check_members_present (scaled_system c b) (scaled_radii c radii shares unit0) w pieces
+      from bound1)
 
 type equilibrium_evidence =
 | ExactAt of Big_int_Z.big_int list
@@ -5905,6 +6164,10 @@ type evidence =
 | CoverAtInfinity of solution_claim list * cover * support_leaf option list
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
+| MembersAbsence of point * point * Big_int_Z.big_int list * Big_int_Z.big_int * box_anchoring
+   * anchored_box_leaf tree
+| MembersPresence of point * point * Big_int_Z.big_int list * Big_int_Z.big_int * box_anchoring
+   * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
 | Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
@@ -6045,7 +6308,7 @@ let answer_infinity q claims c ls =
 
 let check_absence z0 from bound1 = function
 | ByElimination (w, tr) -> check_critical z0 w tr from bound1
-| ByAnchors (w, tr) -> check_anchored_critical z0 w tr from bound1
+| ByAnchors (w, tr) -> check_anchored_critical z0 None w tr from bound1
 
 (** val zero_system_of : integral -> zero_system option **)
 
@@ -6086,7 +6349,7 @@ let integral_answer p = function
 | Presence (from, bound1, w, pieces) ->
   (match zero_system_of p with
    | Some z0 ->
-     proved_if (check_presence z0 w pieces from bound1) (OneForEachFriction (from, bound1))
+     proved_if (check_presence z0 None w pieces from bound1) (OneForEachFriction (from, bound1))
    | None -> EvidenceRefused)
 | Points points ->
   (match p with
@@ -6111,6 +6374,15 @@ let answer p c e =
        proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates (lo, hi))
      | Stable (lo, hi, w, d, low, high) ->
        proved_if (check_given_stable c b w d lo hi low high) (StableForFriction (lo, hi))
+     | _ -> scaled_answer p c e)
+  | GivenMembers (b, radii) ->
+    (match e with
+     | MembersAbsence (from, bound1, shares, unit0, w, tr) ->
+       proved_if (check_radii_absent c b radii shares unit0 w tr from bound1) (NoneForFriction
+         (from, bound1))
+     | MembersPresence (from, bound1, shares, unit0, w, pieces) ->
+       proved_if (check_radii_present c b radii shares unit0 w pieces from bound1)
+         (OneForEachFriction (from, bound1))
      | _ -> scaled_answer p c e)
   | GivenLoads b ->
     (match e with

@@ -1231,7 +1231,8 @@ type anchor = { anchor_center : point; anchor_unit : Big_int_Z.big_int;
                 anchor_scale : Big_int_Z.big_int list }
 
 type anchor_family = { series_z : matrix list; left_norms : polynomial list;
-                       right_norms : polynomial list; drift : Big_int_Z.big_int }
+                       right_norms : polynomial list; drift : Big_int_Z.big_int;
+                       spread_z : matrix list }
 
 type local_entry = { local_a : Big_int_Z.big_int; local_b : Big_int_Z.big_int;
                      local_ra : Big_int_Z.big_int; local_rb : Big_int_Z.big_int }
@@ -1255,9 +1256,14 @@ val sf_block : pencil -> (int -> sparse_row) -> matrix
 val ss_block : pencil -> (int -> sparse_row) -> matrix
 
 val residual_series :
-  anchor -> sparse_row list -> sparse_row list -> matrix list -> matrix list -> matrix list
+  anchor -> Big_int_Z.big_int -> sparse_row list -> sparse_row list -> matrix list -> matrix
+  list -> matrix list
 
-val center_series : pencil -> anchor -> matrix list -> matrix list
+val residual_right : pencil -> anchor -> Big_int_Z.big_int -> matrix list
+
+val residual_left : pencil -> anchor -> Big_int_Z.big_int -> matrix list
+
+val center_series : pencil -> anchor -> Big_int_Z.big_int -> matrix list -> matrix list
 
 val row_sum : sparse_row -> Big_int_Z.big_int
 
@@ -1267,6 +1273,25 @@ val expand_from :
 val small : pencil -> matrix list -> bool
 
 val expand : pencil -> anchor -> anchor_family option
+
+val radii_pencil : pencil -> (sparse_row list * sparse_row list) -> pencil
+
+val absolute : matrix list -> matrix list
+
+val absolute_anchor : anchor -> anchor
+
+val widened_family :
+  pencil -> anchor -> (sparse_row list * sparse_row list) -> anchor_family -> anchor_family
+  option
+
+val expand_member :
+  pencil -> (sparse_row list * sparse_row list) option -> anchor -> anchor_family option
+
+val lowered : sparse_row list -> sparse_row list -> sparse_row list
+
+val lowered_block :
+  pencil -> (pencil -> int -> sparse_row) -> (sparse_row list * sparse_row list) option ->
+  sparse_row list
 
 val interval_width : point -> point -> Big_int_Z.big_int
 
@@ -1299,7 +1324,7 @@ val entry_of :
   anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool -> polynomial
   -> (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
   (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) ->
-  local_entry
+  (Big_int_Z.big_int * Big_int_Z.big_int) -> local_entry
 
 val rounded : Big_int_Z.big_int -> Big_int_Z.big_int -> local_entry -> local_entry
 
@@ -1549,11 +1574,22 @@ type anchored_box_leaf =
 | AboutAnchor of int * Big_int_Z.big_int * critical_leaf tree
 | WithoutAnchor of critical_leaf
 
+type part_radii = { plain_radii : (sparse_row list * sparse_row list);
+                    friction_radii : (sparse_row list * sparse_row list);
+                    friction_shares : Big_int_Z.big_int list; share_unit : Big_int_Z.big_int }
+
+val widened : part_radii option -> enclosed -> enclosed
+
+val swapped_radii :
+  (sparse_row list * sparse_row list) option -> (sparse_row list * sparse_row list) option
+
 val friction_anchor : anchor -> matrix list -> anchor
 
-val expand_part : pencil -> bool -> anchor -> anchor_family option
+val expand_part :
+  pencil -> (sparse_row list * sparse_row list) option -> bool -> anchor -> anchor_family option
 
-val expand_box : zero_system -> box_anchor -> (anchor_family * anchor_family) option
+val expand_box :
+  zero_system -> part_radii option -> box_anchor -> (anchor_family * anchor_family) option
 
 val check_local_leaf :
   (region -> bool) -> enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
@@ -1563,21 +1599,25 @@ val local_part :
   Big_int_Z.big_int -> enclosed
 
 val check_about :
-  zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
-  Big_int_Z.big_int -> region -> point -> point -> critical_leaf tree -> bool
+  zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point -> point ->
+  critical_leaf tree -> bool
 
 val no_box_anchor : box_anchor
 
-val box_expansions : zero_system -> box_anchoring -> (anchor_family * anchor_family) option list
+val box_expansions :
+  zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+  list
 
 val check_anchored_box :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> region ->
-  point -> point -> anchored_box_leaf -> bool
+  zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+  list -> region -> point -> point -> anchored_box_leaf -> bool
 
-val both_bounded : zero_system -> box_anchoring -> bool
+val both_bounded : zero_system -> part_radii option -> box_anchoring -> bool
 
 val check_anchored_critical :
-  zero_system -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool
+  zero_system -> part_radii option -> box_anchoring -> anchored_box_leaf tree -> point -> point
+  -> bool
 
 type presence = { presence_box : regular; presence_start : regular; presence_finish : regular }
 
@@ -1598,23 +1638,26 @@ type presence_piece = { piece_end : point; piece_region : region; piece_anchor :
                         piece_before : point; piece_witness : presence }
 
 val ends_over :
-  zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
-  Big_int_Z.big_int -> point -> point -> point -> point -> enclosed * enclosed
+  zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> point -> point -> point -> point ->
+  enclosed * enclosed
 
 val check_present :
-  zero_system -> form_bound -> form_bound -> box_anchor -> (anchor_family * anchor_family) ->
-  Big_int_Z.big_int -> region -> point -> point -> point -> point -> presence -> bool
+  zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
+  (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point -> point -> point ->
+  point -> presence -> bool
 
 val check_piece :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
-  presence_piece -> bool
+  zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+  list -> point -> presence_piece -> bool
 
 val check_pieces :
-  zero_system -> box_anchoring -> (anchor_family * anchor_family) option list -> point ->
-  presence_piece list -> point -> bool
+  zero_system -> part_radii option -> box_anchoring -> (anchor_family * anchor_family) option
+  list -> point -> presence_piece list -> point -> bool
 
 val check_presence :
-  zero_system -> box_anchoring -> presence_piece list -> point -> point -> bool
+  zero_system -> part_radii option -> box_anchoring -> presence_piece list -> point -> point ->
+  bool
 
 val one_half : zero_system -> int list -> int -> bool
 
@@ -1708,6 +1751,10 @@ type given_particle = { first_of : int; second_of : int; contact_of : contact;
 type rational_system = { degrees : int; given_stiffness : rational_row list;
                          given_mass : rational_row list; given_particles : given_particle list }
 
+type rational_radii = { radii_of_stiffness : rational_row list;
+                        radii_of_mass : rational_row list;
+                        factor_ranges : (rational0 * rational0) list }
+
 type rational_mcp_row = { given_m : rational_row; given_q : rational0;
                           given_lower : rational0 option; given_upper : rational0 option }
 
@@ -1721,6 +1768,7 @@ type rational_body = { body_degrees : int; body_stiffness : rational_row list;
 type problem =
 | GivenPencil of rational_pencil
 | GivenSystem of rational_system * unknown
+| GivenMembers of rational_system * rational_radii
 | GivenPlain of rational_mcp_row list
 | GivenLoads of rational_body
 
@@ -1816,6 +1864,47 @@ val is_apart : stated -> bool
 val touched : rational_body -> stated list -> int -> bool
 
 val integral_wellformed : integral -> bool
+
+type system_radii = { stiffness_radii : sparse_row list; mass_radii : sparse_row list;
+                      factor_shares : Big_int_Z.big_int list; factor_unit : Big_int_Z.big_int }
+
+val absolute_table : system -> sparse_row list
+
+val part_direction : Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> planar
+
+val radius_form :
+  system -> sparse_row list -> Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row
+
+val radius_rows :
+  system -> sparse_row list -> Big_int_Z.big_int -> Big_int_Z.big_int -> sparse_row list
+
+val radii_of_parts : system -> system_radii -> part_radii
+
+val radii_wellformed : system -> system_radii -> bool
+
+val check_members_absent :
+  system -> system_radii -> box_anchoring -> anchored_box_leaf tree -> point -> point -> bool
+
+val check_members_present :
+  system -> system_radii -> box_anchoring -> presence_piece list -> point -> point -> bool
+
+val scaled_radii :
+  scales -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int -> system_radii
+
+val range_in_share :
+  Big_int_Z.big_int -> rational0 -> (rational0 * rational0) -> Big_int_Z.big_int -> bool
+
+val exact_radii :
+  scales -> rational_system -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  bool
+
+val check_radii_absent :
+  scales -> rational_system -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  box_anchoring -> anchored_box_leaf tree -> point -> point -> bool
+
+val check_radii_present :
+  scales -> rational_system -> rational_radii -> Big_int_Z.big_int list -> Big_int_Z.big_int ->
+  box_anchoring -> presence_piece list -> point -> point -> bool
 
 type equilibrium_evidence =
 | ExactAt of Big_int_Z.big_int list
@@ -1993,6 +2082,10 @@ type evidence =
 | CoverAtInfinity of solution_claim list * cover * support_leaf option list
 | Absence of point * point * absence_evidence
 | Presence of point * point * box_anchoring * presence_piece list
+| MembersAbsence of point * point * Big_int_Z.big_int list * Big_int_Z.big_int * box_anchoring
+   * anchored_box_leaf tree
+| MembersPresence of point * point * Big_int_Z.big_int list * Big_int_Z.big_int * box_anchoring
+   * presence_piece list
 | DefiniteRates of point * point * elimination * factor * factor
 | Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list

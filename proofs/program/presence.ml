@@ -9,20 +9,6 @@ open Certificate
 open Elaborate
 open Critical
 
-(* Without free variables: an anchor without matrices, in a unit that leaves the rounding small. *)
-let anchored_without_free c (plain : Kernel.pencil) friction slip =
-  let bound = { trivial_bound with Kernel.bound_at = Z.one } in
-  let anchor =
-    { Kernel.reversed_anchor = false;
-      plain_anchor =
-        { Kernel.anchor_center = Kernel.zero; anchor_unit = two_to 64; anchor_right = [];
-          anchor_left = []; anchor_scale = common_scales plain friction slip c.slip_factor };
-      friction_left = [] } in
-  let anchoring =
-    { Kernel.stiffness_below = bound; mass_below = bound; box_anchors = [anchor] } in
-  { plain_pencil = plain; anchoring;
-    families = Array.of_list (Kernel.box_expansions c.zero anchoring); numbers = [] }
-
 let anchors_of_pieces pieces =
   List.sort_uniq compare (List.map (fun piece -> piece.piece_anchor) pieces)
 

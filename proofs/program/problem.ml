@@ -175,29 +175,6 @@ let read_directions order field contact_of =
             frame_normal = planar normal; into_obstacle = Z.of_int into;
             factor_of = point_of friction_factor }
 
-(* Data with radii stand for a set of bodies, of which no theorem here speaks. *)
-let exact_only value = if value <> Null then not_verified "data with radii"
-
-let read_particle order mu item =
-  let field =
-    fields ["tangential"; "normal"; "state"]
-      ("sign" :: "reaction" :: "friction_factor_range" :: directions) item in
-  exact_only (field "friction_factor_range");
-  let state = text (field "state") in
-  let sign = unit_of "sign" (field "sign") in
-  if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
-  let sign = Option.value sign ~default:0 in
-  let contact = match state with
-    | "free" -> Kernel.NotInContact
-    | "stick" -> Sticking
-    | "slip" -> Slipping (Z.of_int sign)
-    | "zero" -> ZeroInContact
-    | _ -> malformed "the state %S" state in
-  let framed, particle = read_directions order field contact in
-  let mu = Option.map (Q.mul (value_of particle.factor_of)) mu in
-  (match field "reaction" with Null -> () | v -> Demands.check_reaction mu state sign v);
-  framed, particle
-
 let describe_particle (framed, (p : Kernel.given_particle)) =
   let components sign (a, b) =
     List.map (fun (d, c) -> Printf.sprintf " %d %s" d (Q.to_string c))
@@ -215,6 +192,37 @@ let describe_particle (framed, (p : Kernel.given_particle)) =
     String.concat "" ("normal" :: components p.into_obstacle p.frame_normal) ]
   @ (if Q.equal factor Q.one then [] else ["friction_factor " ^ Q.to_string factor])
 
+let read_particle order mu item =
+  let field =
+    fields ["tangential"; "normal"; "state"]
+      ("sign" :: "reaction" :: "friction_factor_range" :: directions) item in
+  let state = text (field "state") in
+  let sign = unit_of "sign" (field "sign") in
+  if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
+  let sign = Option.value sign ~default:0 in
+  let contact = match state with
+    | "free" -> Kernel.NotInContact
+    | "stick" -> Sticking
+    | "slip" -> Slipping (Z.of_int sign)
+    | "zero" -> ZeroInContact
+    | _ -> malformed "the state %S" state in
+  let framed, particle = read_directions order field contact in
+  let factor = value_of particle.factor_of in
+  (match field "reaction" with
+   | Null -> ()
+   | v -> Demands.check_reaction (Option.map (Q.mul factor) mu) state sign v);
+  let text = describe_particle (framed, particle) in
+  (* Members have factors between both ends; the particle has their mean. *)
+  match field "friction_factor_range" with
+  | Null -> (text, particle), None
+  | ends ->
+    (match List.map rational (list ends) with
+     | [lo; hi] when Q.sign lo >= 0 && Q.lt lo hi && Q.leq lo factor && Q.leq factor hi ->
+       let mean = Q.div (Q.add lo hi) (Q.of_int 2) in
+       let range = Printf.sprintf "friction_factor_range %s %s" (Q.to_string lo) (Q.to_string hi) in
+       (text @ [range], { particle with factor_of = point_of mean }), Some (lo, hi)
+     | _ -> malformed "friction_factor_range: 0 <= lo < hi, the factor between")
+
 (* Stiffness, mass and friction. *)
 let read_body folder field =
   let k = read_matrix folder (field "stiffness") in
@@ -227,17 +235,45 @@ let read_body folder field =
   k, m, mu
 
 let body_lines particles k m =
-  List.concat_map describe_particle particles @ canonical_matrix "stiffness" k
+  List.concat particles @ canonical_matrix "stiffness" k
   @ (match m with Some m -> canonical_matrix "mass" m | None -> [])
+
+(* The radius of a matrix; entries that are 0 are left out. *)
+let read_radius folder matrix item =
+  let each f = { matrix with entries = Array.map (fun row ->
+      List.filter (fun (_, r) -> Q.sign r <> 0) (List.map (fun (j, v) -> j, f v) row))
+      matrix.entries } in
+  let radius = match item with
+    | Null -> each (fun _ -> Q.zero)
+    | Object ["absolute", r] -> let r = rational r in each (fun _ -> r)
+    | Object ["relative", r] -> let r = rational r in each (fun v -> Q.mul r (Q.abs v))
+    | Object ["matrix", given] -> read_matrix folder given
+    | _ -> malformed "a radius is absolute, relative or a matrix" in
+  if radius.rows <> matrix.rows || not (Demands.symmetric radius.rows radius.cols radius.entries)
+  || Array.exists (List.exists (fun (_, r) -> Q.sign r < 0)) radius.entries then
+    malformed "a radius that is not symmetric, of another order or negative";
+  radius
+
+let some_radius m = Array.exists (fun row -> row <> []) m.entries
+
+let radius_lines name m = if some_radius m then canonical_matrix name m else []
 
 let read_system folder unknown item =
   let field = fields ["stiffness"; "particles"] ["mass"; "friction"; "radii"] item in
-  exact_only (field "radii");
   let k, m, mu = read_body folder field in
+  let radii = match field "radii" with
+    | Null -> fun _ -> Null
+    | given -> fields [] ["stiffness"; "mass"] given in
+  let radius_k = read_radius folder k (radii "stiffness") in
+  let radius_m = match m with
+    | Some m -> read_radius folder m (radii "mass")
+    | None when radii "mass" = Null -> { k with entries = [||] }
+    | None -> malformed "a radius of a mass that is not given" in
   if unknown = "lambda2" && (m = None || mu = None) then
     malformed "lambda2 needs mass and friction";
 
-  let particles = List.map (read_particle k.rows mu) (list (field "particles")) in
+  let particles, ranges =
+    List.split (List.map (read_particle k.rows mu) (list (field "particles"))) in
   let given_particles = List.map snd particles in
   Demands.apart (List.concat_map (fun (p : Kernel.given_particle) -> [p.first_of; p.second_of])
                    given_particles);
@@ -245,13 +281,30 @@ let read_system folder unknown item =
 
   let text =
     ["system"] @ (match mu with Some q -> ["friction " ^ Q.to_string q] | None -> [])
-    @ body_lines particles k m in
+    @ body_lines (List.map fst particles) k m
+    @ radius_lines "stiffness_radius" radius_k @ radius_lines "mass_radius" radius_m in
 
   let system =
     { Kernel.degrees = k.rows; given_stiffness = rational_rows k;
       given_mass = (match m with Some m -> rational_rows m | None -> []);
       given_particles } in
+  let exact = not (some_radius radius_k || some_radius radius_m)
+              && List.for_all (fun range -> range = None) ranges in
+  if not exact && List.exists Kernel.zeroes given_particles then
+    malformed "radii beside a particle in state zero";
+  let members () =
+    let ends (p : Kernel.given_particle) = function
+      | Some (lo, hi) -> point_of lo, point_of hi
+      | None -> p.factor_of, p.factor_of in
+    let slipping = List.filter (fun (p, _) -> Kernel.slips p)
+        (List.combine given_particles ranges) in
+    { Kernel.radii_of_stiffness = rational_rows radius_k;
+      radii_of_mass = rational_rows radius_m;
+      factor_ranges = List.map (fun (p, range) -> ends p range) slipping } in
   match unknown, mu with
+  | _ when not exact ->
+    let friction = if unknown = "lambda2" then mu else None in
+    text, Kernel.GivenMembers (system, members ()), friction
   | "lambda2", Some q -> text, Kernel.GivenSystem (system, Lambda2 (Q.num q, Q.den q)), mu
   | _ -> text, GivenSystem (system, Mu), None
 

@@ -3,12 +3,16 @@
 
    A wrong choice is refused by the kernel, so this file is not trusted. *)
 
+(* The integral radii; of each slip particle its share, over one unit. *)
+type members = { radii : Kernel.part_radii; shares : Z.t list; share_unit : Z.t }
+
 type t = {
   unknown : string;
   digest : string;
   window : Q.t * Q.t option;
   scales : Kernel.scales;
   question : Kernel.integral;
+  members : members option;  (* of a body with radii; the question is then about the middle *)
   common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
   slip_common : Z.t }  (* the factor of the entries of the complementarity rows *)
 
@@ -21,8 +25,30 @@ let scaled scales given =
   | Some question -> question
   | None -> invalid_arg "factors that do not make the problem integral"
 
+(* (hi - lo) / (hi + lo) *)
+let share (lo, hi) =
+  let lo = Problem.value_of lo and hi = Problem.value_of hi in
+  Q.div (Q.sub hi lo) (Q.add hi lo)
+
+let members_of scales question (radii : Kernel.rational_radii) =
+  let exact = List.map share radii.factor_ranges in
+  let share_unit = List.fold_left (fun common q -> Z.lcm common (Q.den q)) Z.one exact in
+  let shares = List.map (fun q -> Z.mul (Q.num q) (Z.divexact share_unit (Q.den q))) exact in
+  match question with
+  | Kernel.SystemProblem (system, _) ->
+    let scaled = Kernel.scaled_radii scales radii shares share_unit in
+    { radii = Kernel.radii_of_parts system scaled; shares; share_unit }
+  | _ -> invalid_arg "radii of another problem"
+
 let of_problem (problem : Problem.t) =
-  let scales, friction = match problem.given with
+  let given, radii, more = match problem.given with
+    | GivenMembers (s, radii) ->
+      let unknown = match problem.friction with
+        | Some q -> Kernel.Lambda2 (Q.num q, Q.den q)
+        | None -> Mu in
+      Kernel.GivenSystem (s, unknown), Some radii, radii.radii_of_stiffness @ radii.radii_of_mass
+    | given -> given, None, [] in
+  let scales, friction = match given with
     | GivenPencil p ->
       { Kernel.entry_scale = of_rows (of_rows Z.one p.given_a) p.given_b;
         length_scale = Z.one }, Z.one
@@ -30,14 +56,15 @@ let of_problem (problem : Problem.t) =
       let planar common (a, b) = denominator common [a; b] in
       let length common (p : Kernel.given_particle) =
         planar (planar common p.frame_tangent) (Kernel.long_normal p) in
-      { entry_scale = of_rows (of_rows Z.one s.given_stiffness) s.given_mass;
+      { entry_scale = of_rows (of_rows (of_rows Z.one s.given_stiffness) s.given_mass) more;
         length_scale = List.fold_left length Z.one (Kernel.slipping s @ Kernel.with_zero s) },
       (match unknown with Mu -> Z.one | Lambda2 (_, q) -> q)
-    | GivenPlain _ | GivenLoads _ -> invalid_arg "no eigenproblem" in
+    | GivenMembers _ | GivenPlain _ | GivenLoads _ -> invalid_arg "no eigenproblem" in
   let length = scales.length_scale in
   let common = Z.mul scales.entry_scale length in
+  let question = scaled scales given in
   { unknown = problem.unknown; digest = problem.digest; window = problem.window; scales;
-    question = scaled scales problem.given; common;
+    question; members = Option.map (members_of scales question) radii; common;
     slip_common = Z.mul common (Z.mul length friction) }
 
 let of_plain rows =
