@@ -261,6 +261,78 @@ let anchors_of_boxes pieces =
   List.sort_uniq compare (List.filter_map (fun piece ->
       if needs_anchor piece then Some piece.box_anchor else None) pieces)
 
+(* An anchor with W and V as power series of F^-1 G about a center, or about infinity. *)
+let new_anchor c (plain : Kernel.pencil) (friction : Kernel.pencil) slip center =
+  let free = plain.free in
+  let nf = List.length free in
+  let reversed_anchor = center = None in
+  let turned (p : Kernel.pencil) = if reversed_anchor then Kernel.swap_pencil p else p in
+  let plain = turned plain and friction = turned friction in
+  let center = Option.value center ~default:Q.zero in
+  let dense rows is js =
+    let rows = Array.of_list rows and places = Hashtbl.create 64 in
+    List.iteri (fun place j -> Hashtbl.replace places j place) js;
+    let row i =
+      let entries = Array.make (List.length js) 0.0 in
+      List.iter (fun (j, v) -> match Hashtbl.find_opt places j with
+          | Some place -> entries.(place) <- entries.(place) +. Z.to_float v
+          | None -> ()) rows.(i);
+      entries in
+    Array.of_list (List.map row is) in
+  let transposed m = Array.init nf (fun j -> Array.map (fun row -> row.(j)) m) in
+  let times a b =
+    Array.map (fun row -> Array.init (List.length slip) (fun j ->
+        let sum = ref 0.0 in
+        Array.iteri (fun k v -> sum := !sum +. v *. b.(k).(j)) row;
+        !sum)) a in
+  let combined f = Array.map2 (Array.map2 f) in
+  let at_center = combined (fun a b -> a +. Q.to_float center *. b) in
+  spend (4 * nf);
+  let slope = dense plain.rows_b free free in
+  Option.map (fun y ->
+      let series a b =
+        let rec more k last =
+          if k = 0 then []
+          else
+            let next = times y (Array.map (Array.map (~-.)) (times slope last)) in
+            next :: more (k - 1) next in
+        let first = times y (at_center a b) in
+        let second = times y (combined (-.) b (times slope first)) in
+        let rounded m = Array.map (Array.map (fun v -> round_scaled v 60)) m in
+        List.map (fun m -> Array.to_list (Array.map Array.to_list (rounded m)))
+          (first :: second :: more 8 second) in
+      let left (p : Kernel.pencil) =
+        let block rows = transposed (dense rows slip free) in
+        series (block p.rows_a) (block p.rows_b) in
+      { Kernel.reversed_anchor;
+        plain_anchor =
+          { Kernel.anchor_center = point_of center; anchor_unit = two_to 60;
+            anchor_right = series (dense plain.rows_a free slip) (dense plain.rows_b free slip);
+            anchor_left = left plain;
+            anchor_scale = common_scales plain friction slip c.slip_factor };
+        friction_left = left friction })
+    (inverse (at_center (dense plain.rows_a free free) slope))
+
+(* Ends of intervals that cover a tail, from where it begins; the last one has no end. *)
+let ends_of_tail from = List.init 9 (fun k -> Q.mul from (Q.of_bigint (two_to k)))
+
+(* The anchors of the certificate; behind them those for the intervals of a tail. *)
+let with_tail c v plain friction slip =
+  match c.tail with
+  | Some tail when Q.sign tail.from > 0 ->
+    let ends = ends_of_tail tail.from in
+    let last = List.length ends - 1 in
+    let center k lower =
+      if k = last then None else Some (Q.mul lower (Q.make (Z.of_int 4) (Z.of_int 3))) in
+    let extra = List.mapi (fun k lower -> new_anchor c plain friction slip (center k lower)) ends in
+    if List.mem None extra then v
+    else
+      let anchors = v.anchoring.Kernel.box_anchors @ List.filter_map Fun.id extra in
+      let anchoring = { v.anchoring with Kernel.box_anchors = anchors } in
+      { v with anchoring;
+               families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring) }
+  | _ -> v
+
 (* Without free variables: anchors without matrices for t and for 1/t, in a unit that leaves the
    rounding small. *)
 let anchored_without_free c (plain : Kernel.pencil) friction slip =
@@ -370,6 +442,23 @@ let no_leaf node =
   | CutValue _ | CutFriction _ | Decide _ -> assert false
   | BoxFarkas _ | BoxDefinite _ | BoxRegular _ | BoxTail -> ()
 
+(* The tail of a body with radii: positive definite over each of its intervals. *)
+let member_tail c v box =
+  let from = value_of box.region.lower in
+  let ends = ends_of_tail from in
+  let first = Array.length v.families - List.length ends in
+  let rec intervals k box = function
+    | _ :: (next :: _ as rest) ->
+      let cut = point_of next in
+      let lower = { box with region = { box.region with upper = cut } } in
+      let upper = { box with region = { box.region with lower = cut } } in
+      Kernel.Split (cut, closed k lower, intervals (k + 1) upper rest)
+    | _ -> closed k box
+  and closed k box =
+    close "tail" [Along_value; Along_value; Along_value] [fun box ->
+        about c v (first + k) box (fun parts region -> definite_box parts false region box)] box in
+  if finite box.region.upper || first < 0 then no_witness "tail" else intervals 0 box ends
+
 let anchored_leaf c v piece box node =
   no_leaf node;
   let number () = match List.assoc_opt piece.box_anchor v.numbers with
@@ -393,6 +482,7 @@ let anchored_leaf c v piece box node =
     let k = position c.slip pivot in
     close "regular" in_turn [fun box -> about c v (number ()) box (fun parts region ->
         regular_box parts k region box)] box
+  | _ when c.radii <> None -> member_tail c v box
   | _ -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole false] box
 
 (* ---------- without free variables *)

@@ -563,8 +563,9 @@ let absence (problem : Scaling.t) (certificate : Certificate.critical) () =
     let anchored = timed "condensation" (fun () -> match condensation with
         | None -> Critical.anchored_without_free context plain friction slip_list
         | Some condensation ->
-          Critical.anchored_of context plain friction slip_list condensation
-            (Critical.anchors_of_boxes pieces)) in
+          let anchored = Critical.anchored_of context plain friction slip_list condensation
+              (Critical.anchors_of_boxes pieces) in
+          Critical.with_tail context anchored plain friction slip_list) in
     let leaf = if condensation = None then Critical.member_leaf_without_free context anchored
       else Critical.anchored_leaf context anchored in
     let tree = timed "elaboration" (fun () ->
