@@ -116,7 +116,8 @@ Definition center_series sign (r : seq matrix) : seq matrix :=
 Definition row_sum (row : sparse_row) := foldr (fun e s => Z.abs e.2 + s) 0 row.
 
 Definition expand_from (f1 : seq sparse_row) (l r : seq matrix) : anchor_family :=
-  AnchorFamily (center_series (-1) r) [seq norms l i | i <- iota 0 ns] [seq norms r j | j <- iota 0 ns]
+  AnchorFamily (center_series (-1) r) [seq norms l i | i <- iota 0 ns]
+    [seq norms r j | j <- iota 0 ns]
     (foldr Z.max 0 [seq row_sum row | row <- f1]) [::].
 
 Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
@@ -422,7 +423,8 @@ Definition family_bounds (fam : anchor_family) := forall d t b,
 (* A member over an interval. *)
 Definition prepared_member fam low_a low_b lo hi :=
   [/\ wellformed Q,
-      [/\ 0 < toR q :> R, 0 < u & forall i, (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R],
+      [/\ 0 < toR q :> R, 0 < u &
+          forall i, (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R],
       free_bounded low_a low_b, family_bounds fam & proper_interval a low_a low_b lo hi].
 
 End Member.
@@ -724,7 +726,8 @@ have sums i : i \in fi -> \sum_(k <- fi) (`|m i k| + `|m k i|) <= rho i *+ 2.
 have form : `|\sum_(i <- fi) \sum_(k <- fi) z i * m i k * z k| <= \sum_(i <- fi) rho i * z i ^+ 2.
   suff : `|\sum_(i <- fi) \sum_(k <- fi) z i * m i k * z k| *+ 2 <=
       (\sum_(i <- fi) rho i * z i ^+ 2) *+ 2 by rewrite ler_muln2r.
-  apply: le_trans (form_by_sums _ _ _) _; rewrite -sumrMnl; apply: sum_le => i Hi; rewrite -mulrnAl mulrC ler_wpmul2r ?sqr_ge0 //.
+  apply: le_trans (form_by_sums _ _ _) _; rewrite -sumrMnl; apply: sum_le => i Hi.
+  rewrite -mulrnAl mulrC ler_wpmul2r ?sqr_ge0 //.
   exact: sums.
 rewrite (sum_eq rowE) sumrB ler_subl_addr -ler_subl_addl; apply: le_trans form.
 rewrite -normrN; apply: le_trans (ler_norm _); rewrite -sumrB -sumrN.
@@ -761,7 +764,7 @@ Proof.
 have b0 : 0 <= b by apply: le_trans db.
 elim: L => [|M L IH]; first by rewrite value_nil normr0.
 rewrite /absolute /= -/(absolute L) !value_cons (le_trans (ler_norm_add _ _)) // ler_add //.
-  rewrite -toR_abs (_ : Z.abs (entry M i j) = entry [seq [seq Z.abs c | c <- row] | row <- M] i j) //.
+  rewrite -toR_abs (_ : Z.abs _ = entry [seq [seq Z.abs c | c <- row] | row <- M] i j) //.
   rewrite /entry; have [lt_i|ge_i] := ltnP i (size M).
     rewrite (nth_map [::]) //; have [lt_j|ge_j] := ltnP j (size (nth [::] M i)).
       by rewrite (nth_map 0%Z).

@@ -6,16 +6,16 @@
 
    With the motion v(x) of System.v and for each row p the form p'(K + t M) v(x), a member differs
    from the system, entry by entry, by at most the form of absolute values |p|'(R_K + t R_M) |v|
-   ([part_within]); its friction rows have a factor besides.  So Anchor.v and CriticalAnchors.v speak
-   of its rows.
+   ([part_within]); its friction rows have a factor besides.  So Anchor.v and CriticalAnchors.v
+   speak of its rows.
 
    Theorem [members_absent]: if the check succeeds, then no member has a motion with (9) for t >= 0
    and mu in [from, bound].  [members_present]: each has one for every mu in [from, bound].
 
    Page: spec/certificates.md, 5.22.  Rust: crates/check/src/cover/spread.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Bounded Cover Condensation Pencil Complete System Series
-  Anchor AnchorLeaf ZeroReaction ZeroPencil Boxes Critical CriticalAnchors PresenceAnchors.
+From Mceip Require Import Base Integers Sums Tree Bounded Cover Condensation Pencil Complete System
+  Series Anchor AnchorLeaf ZeroReaction ZeroPencil Boxes Critical CriticalAnchors PresenceAnchors.
 
 Record system_radii := SystemRadii {
   stiffness_radii : seq sparse_row;
@@ -153,7 +153,8 @@ Qed.
 
 (* The system itself. *)
 Lemma own_reaction a b t x i : (i < n)%N -> reaction (zero_pencil z (Lambda2 a b)) t x i =
-  part_row a b (k_entry R s) (zero_motion z x) i + t * part_row a b (m_entry R s) (zero_motion z x) i.
+  part_row a b (k_entry R s) (zero_motion z x) i +
+  t * part_row a b (m_entry R s) (zero_motion z x) i.
 Proof.
 have forceE d : force s t (zero_motion z x) d = forced (k_entry R s) (zero_motion z x) d +
     t * forced (m_entry R s) (zero_motion z x) d by exact: forceE.
@@ -407,7 +408,8 @@ have same_rows i j : i \in free Q0 -> part_entry 1 0 k i j = part_entry 0 1 k i 
 have [p [t [x [_ [t0 ag nonzero rows signs]]]]] :=
   member_present bounds member_plain member_friction member_shares same_rows checked bm.
 have same d : d \in all_dofs -> zero_motion z x d = motion s x d.
-  move=> Hd; have [moves|rests] := boolP (d \in moving_dofs s); first exact: (zero_motion_moving wf).
+  move=> Hd; have [moves|rests] := boolP (d \in moving_dofs s).
+    exact: (zero_motion_moving wf).
   rewrite zero_motion_rest ?motion_zero //.
   by rewrite /moving_with_zero cats0.
 exists t, (motion s x); split=> //; split.

@@ -181,7 +181,8 @@ Proof.
 move=> /over_pq[pq pq'] u0 u1 one val; have [l1 l2 h1 h2] := ordered_ge0 R Om.
 have [C [D [E on]]] := local_line pq grain0 u0 u1.
 have [C' [D' [near on']]] := local_line pq' grain0 u0 u1.
-have E' := widened_encloses (P := part' p q) shares near; have same := size_widened radii (part' p q).
+have E' := widened_encloses (P := part' p q) shares near.
+have same := size_widened radii (part' p q).
 exists (fun i j => toR low.2 * C i j + toR low.1 * (g_of i * C' i j)),
   (fun i j => toR low.2 * D i j + toR low.1 * (g_of i * D' i j)),
   (fun i j => toR high.2 * C i j + toR high.1 * (g_of i * C' i j)),

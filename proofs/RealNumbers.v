@@ -15,7 +15,7 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying Covers ZeroComplete Critical CriticalAnchors.
-From Mceip Require Import PresenceAnchors.
+From Mceip Require Import PresenceAnchors Radii.
 From Mceip Require Import Points Equilibrium Unique Stable Verdict.
 
 Set Implicit Arguments.
@@ -177,6 +177,8 @@ Definition critical_absent_R := @critical_absent reals.
 Definition anchored_critical_absent_R := @anchored_critical_absent reals.
 Definition zero_critical_absent_R := @zero_critical_absent reals.
 Definition zero_anchored_critical_absent_R := @zero_anchored_critical_absent reals.
+Definition radii_absent_R := @radii_absent reals.
+Definition radii_present_R := @radii_present reals.
 Definition presence_sound_R := @presence_sound reals.
 Definition zero_presence_sound_R := @zero_presence_sound reals.
 Definition point_number_R := @point_number reals.
@@ -214,6 +216,8 @@ Definition critical_absent_realalg := @critical_absent realalg_rcfType.
 Definition anchored_critical_absent_realalg := @anchored_critical_absent realalg_rcfType.
 Definition zero_critical_absent_realalg := @zero_critical_absent realalg_rcfType.
 Definition zero_anchored_critical_absent_realalg := @zero_anchored_critical_absent realalg_rcfType.
+Definition radii_absent_realalg := @radii_absent realalg_rcfType.
+Definition radii_present_realalg := @radii_present realalg_rcfType.
 Definition presence_sound_realalg := @presence_sound realalg_rcfType.
 Definition zero_presence_sound_realalg := @zero_presence_sound realalg_rcfType.
 Definition point_number_realalg := @point_number realalg_rcfType.

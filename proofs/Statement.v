@@ -268,7 +268,8 @@ Definition given_member radii (k m : nat -> nat -> R) (c : nat -> R) :=
   [/\ forall d e, d \in iota 0 (degrees B) -> e \in iota 0 (degrees B) ->
         k d e = k e d /\ m d e = m e d,
       forall d e, d \in iota 0 (degrees B) -> e \in iota 0 (degrees B) ->
-        `|k d e - given_entry (given_stiffness B) d e| <= given_entry (radii_of_stiffness radii) d e,
+        `|k d e - given_entry (given_stiffness B) d e| <=
+        given_entry (radii_of_stiffness radii) d e,
       forall d e, d \in iota 0 (degrees B) -> e \in iota 0 (degrees B) ->
         `|m d e - given_entry (given_mass B) d e| <= given_entry (radii_of_mass radii) d e &
       forall j, (j < size (slipping B))%N ->
@@ -393,8 +394,8 @@ Definition semantics_of p :=
   | GivenSystem B u => system_semantics B u
   | GivenPlain rows => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
       (fun _ _ _ => 0) None (fun _ => False) (Some (solves_given rows))
-  | GivenMembers _ _ | GivenLoads _ => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
-      (fun _ _ _ => 0) None (fun _ => False) None
+  | GivenMembers _ _ | GivenLoads _ => Semantics [::] (fun _ _ => False) (fun _ _ => False)
+      (fun _ _ => 0) (fun _ _ _ => 0) None (fun _ => False) None
   end.
 
 Section Statements.

@@ -465,8 +465,8 @@ case: p => [Q|B u|B radii|rows|B]; try exact: scaled_sound.
     by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
   by rewrite /= /proved_if; case: ifP => // ok [<-] mu bm _; apply: (stability_sound ok bm).
 - case: e => //= [from bound shares unit w tr|from bound shares unit w pieces]; rewrite /proved_if;
-    case: ifP => // ok [<-]; have /andP[ex _] := ok; split; rewrite ?(radii_no_zero ex) // => k m factor
-    member mu.
+    case: ifP => // ok [<-]; have /andP[ex _] := ok; split; rewrite ?(radii_no_zero ex) //;
+    move=> k m factor member mu.
     by move=> t v; apply: (radii_absent ok member).
   exact: (radii_present ok member).
 case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].

@@ -188,7 +188,8 @@ let regular_box parts k (region : Kernel.region) box =
 (* The factors of the certificate, where the box is that of the tail. *)
 let by_tail c box =
   match c.tail with
-  | Some tail when c.radii = None && Q.equal tail.from (value_of box.region.lower) && not (finite box.region.upper)
+  | Some tail when c.radii = None && Q.equal tail.from (value_of box.region.lower)
+                   && not (finite box.region.upper)
                    && box.low = c.mu_low && box.high = c.mu_high ->
     let at e (factor, mass_factor) =
       let pencil, whole_weights = whole_pencil c e in
@@ -344,7 +345,8 @@ let anchored_without_free c (plain : Kernel.pencil) friction slip =
           anchor_left = []; anchor_scale = common_scales plain friction slip c.slip_factor };
       friction_left = [] } in
   let anchoring =
-    { Kernel.stiffness_below = bound; mass_below = bound; box_anchors = [anchor false; anchor true] } in
+    { Kernel.stiffness_below = bound; mass_below = bound;
+      box_anchors = [anchor false; anchor true] } in
   { plain_pencil = plain; anchoring;
     families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring); numbers = [] }
 

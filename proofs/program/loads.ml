@@ -74,7 +74,8 @@ let read path document =
   let without m = without_held m place kept in
   let text =
     ["mceip-canonical-loads/1"]
-    @ Problem.body_lines (List.map (fun c -> Problem.describe_particle (particle c)) candidates) (without k) (Option.map without m)
+    @ Problem.body_lines
+      (List.map (fun c -> Problem.describe_particle (particle c)) candidates) (without k) (Option.map without m)
     @ List.map (fun gap -> "gap " ^ Q.to_string gap) gaps
     @ List.concat_map (fun load ->
         "load" :: List.map (fun (d, v) -> Printf.sprintf "%d %s" d (Q.to_string v)) load) loads in

@@ -52,10 +52,14 @@ let without_zero low high =
   if Q.sign (Problem.value_of low) > 0 then closed
   else "(" ^ String.sub closed 1 (String.length closed - 1)
 
+let of_members (problem : Problem.t) = match problem.given with
+  | Kernel.GivenMembers _ -> ", for every body within the radii of the data"
+  | _ -> ""
+
 let absent problem low high =
   verdict_for_friction problem
-    (Printf.sprintf "no solution for friction in %s, lambda2 in %s" (without_zero low high)
-       (show_interval Kernel.zero Kernel.infinity))
+    (Printf.sprintf "no solution for friction in %s, lambda2 in %s%s" (without_zero low high)
+       (show_interval Kernel.zero Kernel.infinity) (of_members problem))
 
 let stable problem low high =
   verdict_for_friction problem
@@ -64,8 +68,8 @@ let stable problem low high =
 
 let present problem low high =
   verdict_for_friction problem
-    (Printf.sprintf "a solution with lambda2 >= 0 for every friction in %s"
-       (show_interval low high))
+    (Printf.sprintf "a solution with lambda2 >= 0 for every friction in %s%s"
+       (show_interval low high) (of_members problem))
 
 let claims_only problem lo hi =
   verdict_in_window problem lo hi "ACCEPTED"
