@@ -59,19 +59,28 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     let Some(verdict) = lines.first().and_then(|line| VerdictLine::read(line)) else {
         return vec![format!("no problem is named in {lines:?}")];
     };
+    let sentence = match verdict.sentence.strip_suffix(OF_MEMBERS) {
+        Some(of_members) if !problem.is_exact() => of_members,
+        None if problem.is_exact() => verdict.sentence,
+        _ => {
+            return vec![format!(
+                "about other bodies than those of the data: {lines:?}"
+            )];
+        }
+    };
 
-    if let Some(range) = absence_range(verdict.sentence) {
+    if let Some(range) = absence_range(sentence) {
         let mut wrong = verdict.other_than(&name(problem, None), "");
         wrong.extend(absence_falsehoods(problem, certificate, "below", &range));
         return wrong;
     }
-    if let Some(range) = stability_range(verdict.sentence) {
+    if let Some(range) = stability_range(sentence) {
         let mut wrong = verdict.other_than(&name(problem, None), "");
         // What is stable does not diverge.
         wrong.extend(absence_falsehoods(problem, certificate, "to", &range));
         return wrong;
     }
-    if let Some(range) = presence_range(verdict.sentence) {
+    if let Some(range) = presence_range(sentence) {
         let mut wrong = verdict.other_than(&name(problem, None), "");
         wrong.extend(presence_falsehoods(problem, certificate, &range));
         return wrong;
@@ -83,8 +92,7 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     let reduced = reduce(problem).unwrap();
     let pencil = &reduced.pencil;
     let word = problem.unknown().word();
-    let Some(statement) = Statement::read(verdict.sentence, &lines[1..], word, &pencil.slip())
-    else {
+    let Some(statement) = Statement::read(sentence, &lines[1..], word, &pencil.slip()) else {
         return vec![format!("an unknown sentence in {lines:?}")];
     };
 
@@ -99,6 +107,9 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
     });
     wrong
 }
+
+/// What a sentence about all members of a problem with radii ends with.
+const OF_MEMBERS: &str = ", for every body within the radii of the data";
 
 /// `sentence (name of the question)`, and what follows it.
 struct VerdictLine<'a> {
@@ -235,6 +246,8 @@ fn absence_falsehoods(
     if system.mass().is_none() {
         return vec!["about a system without mass".into()];
     }
+    // The body as given is one of the members.
+    let system = &system.as_given();
 
     let mut wrong = Vec::new();
     for (numerator, denominator) in LEVELS {
@@ -263,6 +276,8 @@ fn presence_falsehoods(problem: &Problem, certificate: &str, range: &Interval) -
     let Body::System(system) = problem.body() else {
         return vec!["about a pencil".into()];
     };
+    // The body as given is one of the members.
+    let system = &system.as_given();
 
     let mut wrong = Vec::new();
     for mu in samples(range) {
