@@ -437,6 +437,10 @@ let rec close what directions ways box =
     both first (close what rest ways second)
 
 let six_times = List.init 6 (fun _ -> Along_value)
+
+(* Radii are taken where they are largest in an interval, so members need shorter ones. *)
+let along_value c =
+  if c.radii = None then six_times else List.init 24 (fun _ -> Along_value)
 let in_turn = List.concat (List.init 3 (fun _ -> [Along_value; Along_friction]))
 
 let no_leaf node =
@@ -469,7 +473,7 @@ let anchored_leaf c v piece box node =
   let whole negative box = as_whole (by_whole c negative box) in
   match node with
   | BoxFarkas w ->
-    close "farkas" six_times [fun box -> about c v (number ()) box (fun _ _ ->
+    close "farkas" (along_value c) [fun box -> about c v (number ()) box (fun _ _ ->
         Some (Kernel.BoxFarkas w))] box
   | BoxDefinite negative ->
     let by_anchor box =
@@ -479,7 +483,7 @@ let anchored_leaf c v piece box node =
      | None ->
        match whole negative box with
        | Some l -> Kernel.Leaf l
-       | None -> close "definite" six_times [by_anchor] box)
+       | None -> close "definite" (along_value c) [by_anchor] box)
   | BoxRegular pivot ->
     let k = position c.slip pivot in
     close "regular" in_turn [fun box -> about c v (number ()) box (fun parts region ->
@@ -520,12 +524,12 @@ let member_leaf_without_free c v _ box node =
     close what directions [way] box in
   let definite negative box parts region = definite_box parts negative region box in
   match node with
-  | BoxFarkas w -> closed "farkas" six_times (fun _ _ _ -> Some (Kernel.BoxFarkas w))
-  | BoxDefinite negative -> closed "definite" six_times (definite negative)
+  | BoxFarkas w -> closed "farkas" (along_value c) (fun _ _ _ -> Some (Kernel.BoxFarkas w))
+  | BoxDefinite negative -> closed "definite" (along_value c) (definite negative)
   | BoxRegular pivot ->
     let k = position c.slip pivot in
     closed "regular" in_turn (fun box parts region -> regular_box parts k region box)
-  | _ -> closed "tail" six_times (definite false)
+  | _ -> closed "tail" (along_value c) (definite false)
 
 (* ---------- trees *)
 
