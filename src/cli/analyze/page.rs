@@ -178,8 +178,9 @@ fn presence_chart(analysis: &Analysis) -> Named {
     let title = "Divergence against the coefficient of friction";
     let picture = presence_picture(title, &presence(analysis));
     let caption = "Where in \u{3bc} divergence of the form (8) exists, and where the equilibrium \
-                   is proved to be stable, with these contact states. Dots are single values, each decided by a complete search; in a dashed box \
-                   nothing is proved between them. Where there is no box, nothing was examined.";
+                   is proved to be stable, with these contact states. Dots are single values, each \
+                   decided by a complete search; in a dashed box nothing is proved between them. \
+                   Where there is no box, nothing was examined.";
     Named::chart("presence", picture, caption)
 }
 
