@@ -19,7 +19,7 @@ use crate::say::{number_text, warnings_text};
 use mceip_engine::analysis::{
     Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, Verdict,
 };
-use mceip_engine::lean::shorten_file;
+use mceip_engine::lean::{LeanError, shorten_file};
 use mceip_engine::run::{Kept, Watch};
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
@@ -114,7 +114,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     if let Some(proofs) = &keeping {
         question = question.keep(CHECKPOINT, |kept| {
-            if let Err(e) = proofs.keep(kept) {
+            if let Err(e) = job.watched(|watch| proofs.keep(kept, watch)) {
                 job.note(&format!("mceip: {e}; it is written again at the end"));
             }
         });
@@ -127,10 +127,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         None
     };
-    job.end();
 
     // What cannot be written takes nothing else along.
-    let written = keeping.map_or(Ok(Vec::new()), |proofs| proofs.write_all(&analysis));
+    let written = keeping.map_or(Ok(Vec::new()), |proofs| {
+        job.watched(|watch| proofs.write_all(&analysis, watch))
+    });
+    job.end();
     let paths = written.as_deref().unwrap_or_default();
     let drawn = page::Drawn {
         system,
@@ -230,10 +232,14 @@ impl Proofs {
         })
     }
 
-    fn keep(&self, kept: &Kept<'_>) -> Result<(), CliError> {
+    /// Writes a proof; in full where an interrupt leaves no time for its lean form.
+    fn keep(&self, kept: &Kept<'_>, watch: &Watch<'_>) -> Result<(), CliError> {
         self.written().insert(kept.name.to_owned());
         let lean = if self.is_lean {
-            shorten_file(kept.problem, kept.certificate, &Watch::nobody())?
+            match shorten_file(kept.problem, kept.certificate, watch) {
+                Err(LeanError::Interrupted) => None,
+                shortened => shortened?,
+            }
         } else {
             None
         };
@@ -247,15 +253,16 @@ impl Proofs {
 
     /// Writes all proofs of the analysis, and removes those that others have taken the place of;
     /// the certificates' paths.
-    fn write_all(&self, analysis: &Analysis) -> Result<Vec<String>, CliError> {
+    fn write_all(&self, analysis: &Analysis, watch: &Watch<'_>) -> Result<Vec<String>, CliError> {
         let mut superseded = std::mem::take(&mut *self.written());
         let mut paths = Vec::new();
         for proof in &analysis.proofs {
-            self.keep(&Kept {
+            let kept = Kept {
                 name: &proof.name,
                 problem: &proof.problem,
                 certificate: &proof.certificate.file()?,
-            })?;
+            };
+            self.keep(&kept, watch)?;
             superseded.remove(&proof.name);
             let path = self.folder.certificate_path(&proof.name);
             paths.push(path.display().to_string());

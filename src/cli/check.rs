@@ -90,11 +90,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let is_lean = require_format(&source, LEAN_FORMAT).is_ok();
     let source = if is_lean {
-        skeleton(&source).map_err(|e| CliError::file(&args.certificate, e))?
+        skeleton(&source).map_err(|e| CliError::other_file(&args.certificate, e))?
     } else {
         source
     };
-    let given = SecondFile {
+    let given = AnchoredSource {
         args,
         problem: &problem,
         source: &source,
@@ -131,14 +131,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 }
 
 /// A certificate with anchors, as a file has it or as a lean file leaves it to be made anew.
-struct SecondFile<'a> {
+struct AnchoredSource<'a> {
     args: &'a Args,
     problem: &'a Problem,
     source: &'a str,
     is_lean: bool,
 }
 
-impl SecondFile<'_> {
+impl AnchoredSource<'_> {
     /// The verdict on the certificate, with what a lean file leaves out made anew.
     fn judged<C: HasAnchors>(
         &self,

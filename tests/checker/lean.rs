@@ -250,7 +250,7 @@ fn a_lean_file_is_judged_by_what_is_made_of_it() {
             "/certificate/format".into(),
             json!("mceip-stability/1"),
             2,
-            "field",
+            "lean form",
         ),
         (
             "format",

@@ -71,10 +71,13 @@ pub enum LeanError {
     NoSystem,
     /// A kind of certificate that has no lean form.
     #[error(
-        "certificate: expected {CERTIFICATE_FORMAT}, {CRITICAL_FORMAT} or {PRESENCE_FORMAT}; others \
-         have no lean form"
+        "certificate: expected {CERTIFICATE_FORMAT}, {CRITICAL_FORMAT} or {PRESENCE_FORMAT}, the \
+         kinds with a lean form; got another one"
     )]
     NoAnchors,
+    /// The lean file is not read as it was written.
+    #[error("lean certificate: expected to read what was written, got another certificate")]
+    NotAsWritten,
     /// More is left out than is made anew.
     #[error("{what}: expected at most {limit}, got {got}")]
     TooLarge {
@@ -212,8 +215,8 @@ fn matrices_over_friction(anchor: &mut CriticalAnchor) -> AnchorMatrices<'_> {
 /// have no rows.
 ///
 /// # Errors
-/// [`ModelError`]: no file of this format.
-pub fn skeleton(text: &str) -> Result<String, ModelError> {
+/// [`LeanError`]: no file of this format, or one of a kind without anchors.
+pub fn skeleton(text: &str) -> Result<String, LeanError> {
     require_format(text, LEAN_FORMAT)?;
     let LeanFile {
         mut certificate, ..
@@ -222,7 +225,11 @@ pub fn skeleton(text: &str) -> Result<String, ModelError> {
         matrix.entry("rows").or_insert_with(|| json!([]));
     }
 
-    Ok(certificate.to_string())
+    let text = certificate.to_string();
+    match AnchoredKind::of(&text) {
+        Some(_) => Ok(text),
+        None => Err(LeanError::NoAnchors),
+    }
 }
 
 /// Makes what was left out of a certificate anew.
@@ -246,7 +253,7 @@ pub fn elaborate<C: HasAnchors>(
 /// The lean file of a certificate.
 ///
 /// # Errors
-/// [`LeanError`]: it is about another problem.
+/// [`LeanError`]: it is about another problem, or an interrupt.
 pub fn shorten<C: HasAnchors>(
     problem: &Problem,
     mut certificate: C,
@@ -267,13 +274,19 @@ pub fn shorten<C: HasAnchors>(
         },
     )?;
 
-    let mut certificate: Value = from_json(&certificate.text())?;
-    for matrix in matrices_of(&mut certificate) {
+    let mut without_rows: Value = from_json(&certificate.text())?;
+    for matrix in matrices_of(&mut without_rows) {
         if matrix["rows"] == json!([]) {
             matrix.remove("rows");
         }
     }
-    Ok(json!({ "format": LEAN_FORMAT, "certificate": certificate }).to_string())
+    let file = json!({ "format": LEAN_FORMAT, "certificate": without_rows }).to_string();
+
+    // What is made of the file is the certificate that was given: nothing got lost on the way.
+    if C::read(&skeleton(&file)?)? != certificate {
+        return Err(LeanError::NotAsWritten);
+    }
+    Ok(file)
 }
 
 #[derive(Deserialize)]
@@ -484,10 +497,10 @@ pub fn elaborate_file(
 
     let text = skeleton(text)?;
     match AnchoredKind::of(&text) {
+        Some(AnchoredKind::Solutions) => of::<Certificate>(problem, &text, watch),
         Some(AnchoredKind::Absence) => of::<CriticalCertificate>(problem, &text, watch),
         Some(AnchoredKind::Presence) => of::<PresenceCertificate>(problem, &text, watch),
-        // What is no certificate at all is refused as one of this kind.
-        Some(AnchoredKind::Solutions) | None => of::<Certificate>(problem, &text, watch),
+        None => Err(LeanError::NoAnchors),
     }
 }
 
