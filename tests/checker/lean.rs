@@ -89,25 +89,32 @@ fn what_the_engine_makes_is_made_anew() {
     assert!(counts.iter().all(|count| *count >= 8), "{counts:?}");
 }
 
-/// Certificates of the corpus, whose witnesses are written by hand, keep them, and their verdict.
+/// Certificates of the corpus keep what is not as the engine makes it, and nothing of them is lost.
 #[test]
 fn what_cannot_be_made_anew_stays() {
     let mut kept = 0;
+    let mut left_out = 0;
     for entry in entries() {
         if entry.code != ACCEPTED || entry.is_plain() || entry.is_loads() {
             continue;
         }
 
         let problem = read_problem(&entry.problem, Path::new(".")).unwrap();
+        let given: Value = serde_json::from_str(&entry.certificate).unwrap();
         let Some(lean) = shorten(&problem, &entry.certificate).unwrap() else {
+            kept += coefficients(&given).len();
             continue;
         };
-        let full = elaborate(&problem, &lean).unwrap();
-        let file: Value = serde_json::from_str(&full).unwrap();
-        kept += coefficients(&file).len();
 
-        let given = serde_json::from_str::<Value>(&entry.certificate).unwrap();
-        let [made, given] = [&file, &given].map(|file| {
+        let lean: Value = serde_json::from_str(&lean).unwrap();
+        let all = coefficients(&lean["certificate"]);
+        let has_rows = all.iter().filter(|matrix| matrix.get("rows").is_some());
+        let with_rows = has_rows.count();
+        kept += with_rows;
+        left_out += all.len() - with_rows;
+        let full = elaborate(&problem, &lean.to_string()).unwrap();
+        let full: Value = serde_json::from_str(&full).unwrap();
+        let [made, given] = [&full, &given].map(|file| {
             let rows = coefficients(file)
                 .into_iter()
                 .map(|matrix| matrix["rows"].to_string());
@@ -115,7 +122,7 @@ fn what_cannot_be_made_anew_stays() {
         });
         assert_eq!(made, given, "{}", entry.name);
     }
-    assert!(kept >= 40, "{kept}");
+    assert!(kept >= 4 && left_out >= 40, "{kept} {left_out}");
 }
 
 /// `analyze --lean` writes what `check` accepts and `elaborate` turns into what it writes without.

@@ -69,10 +69,10 @@ pub enum LeanError {
     /// A certificate over the friction is about a mechanical system.
     #[error("certificate over the friction: expected a mechanical system, got a pencil")]
     NoSystem,
-    /// A kind of certificate that has no lean form.
+    /// A certificate that has no lean form.
     #[error(
-        "certificate: expected {CERTIFICATE_FORMAT}, {CRITICAL_FORMAT} or {PRESENCE_FORMAT}, the \
-         kinds with a lean form; got another one"
+        "certificate: expected {CERTIFICATE_FORMAT}, {CRITICAL_FORMAT} or {PRESENCE_FORMAT} with \
+         anchors that can be made anew, which have a lean form; got another one"
     )]
     NoAnchors,
     /// The lean file is not read as it was written.
@@ -250,7 +250,7 @@ pub fn elaborate<C: HasAnchors>(
     })
 }
 
-/// The lean file of a certificate.
+/// The lean file of a certificate; `None` where nothing can be left out.
 ///
 /// # Errors
 /// [`LeanError`]: it is about another problem, or an interrupt.
@@ -258,7 +258,7 @@ pub fn shorten<C: HasAnchors>(
     problem: &Problem,
     mut certificate: C,
     watch: &Watch<'_>,
-) -> Result<String, LeanError> {
+) -> Result<Option<String>, LeanError> {
     let may_be_left_out =
         |list: &[IntegerMatrix]| !is_left_out(list) && require_makeable(list).is_ok();
     visit(
@@ -274,6 +274,11 @@ pub fn shorten<C: HasAnchors>(
         },
     )?;
 
+    let mut anchors = certificate.anchors().into_iter();
+    if !anchors.any(|anchor| anchor.solutions.iter().any(|(_, list)| is_left_out(list))) {
+        return Ok(None);
+    }
+
     let mut without_rows: Value = from_json(&certificate.text())?;
     for matrix in matrices_of(&mut without_rows) {
         if matrix["rows"] == json!([]) {
@@ -286,7 +291,7 @@ pub fn shorten<C: HasAnchors>(
     if C::read(&skeleton(&file)?)? != certificate {
         return Err(LeanError::NotAsWritten);
     }
-    Ok(file)
+    Ok(Some(file))
 }
 
 #[derive(Deserialize)]
@@ -451,7 +456,7 @@ impl RightHandSide {
     }
 }
 
-/// The lean file of a certificate's file; `None` for a kind without anchors.
+/// The lean file of a certificate's file; `None` where nothing can be left out.
 ///
 /// # Errors
 /// [`LeanError`]: no certificate, one of another problem, or an interrupt.
@@ -465,7 +470,7 @@ pub fn shorten_file(
         text: &str,
         watch: &Watch<'_>,
     ) -> Result<Option<String>, LeanError> {
-        Ok(Some(shorten(problem, C::read(text)?, watch)?))
+        shorten(problem, C::read(text)?, watch)
     }
 
     match AnchoredKind::of(text) {
