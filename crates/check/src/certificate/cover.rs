@@ -36,6 +36,8 @@ impl CompleteSet {
     pub(crate) fn is_positive_definite(&self) -> bool {
         let is_closed = |piece: &Piece| match &piece.tree[..] {
             [Node::PositiveDefinite] => true,
+            // A weight that is not positive is an absence as well, and no P-matrix.
+            [Node::WeightedDefinite(weights)] => weights.iter().all(|&weight| weight > 0),
             // Negative factors are an absence as well, and no P-matrix.
             [Node::Ldl(ldl)] => ldl.is_positive(),
             _ => false,
@@ -99,6 +101,10 @@ pub enum Node {
     PositiveDefinite,
     /// sym(T) is negative definite on the variables that may be positive.
     NegativeDefinite,
+    /// Weights d of any sign, one per complementarity variable: sym(DT), D = diag(d), is positive
+    /// definite on the variables that may be positive: x'DTx = sum_i d_i x_i y_i = 0 leaves x = 0
+    /// only.
+    WeightedDefinite(Vec<i64>),
     /// sym(A + tB) of the pencil as given is definite on the free variables and on those that may
     /// be positive, by exact factors.
     #[serde(deserialize_with = "object::one")]
@@ -129,6 +135,7 @@ impl Node {
             Node::Farkas(_) => "farkas",
             Node::PositiveDefinite => "positive_definite",
             Node::NegativeDefinite => "negative_definite",
+            Node::WeightedDefinite(_) => "weighted_definite",
             Node::Ldl(_) => "ldl",
             Node::Tail => "tail",
             Node::Root(_) => "root",
@@ -145,6 +152,7 @@ impl Node {
             Node::Farkas(_)
             | Node::PositiveDefinite
             | Node::NegativeDefinite
+            | Node::WeightedDefinite(_)
             | Node::Ldl(_)
             | Node::Tail
             | Node::Root(_)
@@ -168,6 +176,7 @@ impl Node {
             | Node::Farkas(_)
             | Node::PositiveDefinite
             | Node::NegativeDefinite
+            | Node::WeightedDefinite(_)
             | Node::Tail => true,
         }
     }

@@ -1,7 +1,7 @@
-//! Is the symmetric part of every matrix within R of M positive definite?
+//! Is sym(DT) positive definite for every matrix T within R of M?
 //!
-//! Let S = 2 sym(M) with the row sums of R + R' taken off its diagonal. Twice the symmetric part of
-//! a matrix of the family is S + C with C_ii >= sum_(j not i) |C_ij|, so it is definite if S is
+//! D is diagonal. Let S = 2 sym(DM) with the row sums of |D|R + R'|D| taken off its diagonal. Twice
+//! the symmetric part of DT is S + C with C_ii >= sum_(j not i) |C_ij|, so it is definite if S is
 //! (Gershgorin).
 //!
 //! That is decided for S cut to 40 bits, with one unit taken off the diagonal for each entry of a
@@ -11,6 +11,7 @@
 //! Called by `definite`.
 
 use super::ball::BallMatrix;
+use super::definite::Definite;
 use super::ends::{LongMatrix, largest_bits};
 use mceip_exact::{Integer, MachineRow, first_minor_not_positive, machine_definite};
 use num_integer::Integer as _;
@@ -25,14 +26,55 @@ const SHIFT: i64 = 1 << 8;
 const MAX_EXACT_ORDER: usize = 12;
 const MAX_EXACT_BITS: u64 = 1024;
 
-/// The first of the variables at which `sign` sym(M) is not definite on them, whatever the radius
-/// takes away, or at which the matrix is too large and too close to a singular one to say.
-pub(super) fn first_not_definite(
-    matrix: &BallMatrix<Integer>,
-    variables: &[usize],
-    sign: i8,
-) -> Option<usize> {
-    let least = least_member(matrix, variables, sign);
+/// DT + T'D for every T of a ball.
+pub(super) struct WeightedSum<'a> {
+    pub(super) matrix: &'a BallMatrix<Integer>,
+    /// D.
+    pub(super) diagonal: Definite<'a>,
+}
+
+impl WeightedSum<'_> {
+    /// Entry (i, j) of DM + M'D.
+    fn middle(&self, i: usize, j: usize) -> Integer {
+        let m = &self.matrix.m;
+        &m[i][j] * self.diagonal.weight(i) + &m[j][i] * self.diagonal.weight(j)
+    }
+
+    /// Entry (i, j) of |D|R + R'|D|.
+    ///
+    /// Soundness hangs on the moduli: a negative weight takes no radius back.
+    fn radius(&self, i: usize, j: usize) -> Integer {
+        let r = &self.matrix.r;
+        let size = |i| self.diagonal.weight(i).unsigned_abs();
+        &r[i][j] * size(i) + &r[j][i] * size(j)
+    }
+
+    /// Is it exactly zero on these variables, with zero radius?
+    pub(super) fn is_zero(&self, variables: &[usize]) -> bool {
+        let mut pairs = variables
+            .iter()
+            .flat_map(|&i| variables.iter().map(move |&j| (i, j)));
+        pairs.all(|(i, j)| self.middle(i, j).is_zero() && self.radius(i, j).is_zero())
+    }
+
+    /// S on these variables: the middle, less the row sums of the radius on its diagonal.
+    fn least_member(&self, variables: &[usize]) -> LongMatrix {
+        let mut least = LongMatrix::with_capacity(variables.len());
+        for (position, &i) in variables.iter().enumerate() {
+            let mut row: Vec<Integer> = variables.iter().map(|&j| self.middle(i, j)).collect();
+            let radius: Integer = variables.iter().map(|&j| self.radius(i, j)).sum();
+            row[position] -= radius;
+            least.push(row);
+        }
+
+        least
+    }
+}
+
+/// The first of the variables at which the least member of the sum is not definite on them, or at
+/// which that is too large and too close to a singular one to say.
+pub(super) fn first_not_definite(sum: &WeightedSum<'_>, variables: &[usize]) -> Option<usize> {
+    let least = sum.least_member(variables);
     let shift = SHIFT * variables.len() as i64;
     let broken = machine_definite(&cut_lower_triangle(&least), shift).err()?;
     if variables.len() > MAX_EXACT_ORDER {
@@ -45,27 +87,6 @@ pub(super) fn first_not_definite(
     }
 
     first_minor_not_positive(least).map(|minor| minor.index)
-}
-
-/// S on `variables`: 2 `sign` sym(M), less the row sums of twice the symmetric radius on its
-/// diagonal.
-fn least_member(matrix: &BallMatrix<Integer>, variables: &[usize], sign: i8) -> LongMatrix {
-    let BallMatrix { m, r } = matrix;
-    let mut least = LongMatrix::with_capacity(variables.len());
-
-    for (position, &i) in variables.iter().enumerate() {
-        let mut row = Vec::with_capacity(variables.len());
-        let mut radius = Integer::zero();
-        for &j in variables {
-            row.push((&m[i][j] + &m[j][i]) * sign);
-            radius += &r[i][j] + &r[j][i];
-        }
-
-        row[position] -= radius;
-        least.push(row);
-    }
-
-    least
 }
 
 /// Divides by the common factor: the unit of the ends may be a small part of every entry.
@@ -113,7 +134,15 @@ mod tests {
             m: m.clone(),
             r: r.clone(),
         };
-        first_not_definite(&matrix, variables, sign)
+        let sum = WeightedSum {
+            matrix: &matrix,
+            diagonal: if sign < 0 {
+                Definite::Negative
+            } else {
+                Definite::Positive
+            },
+        };
+        first_not_definite(&sum, variables)
     }
 
     /// The same without the leading minors.
@@ -123,7 +152,11 @@ mod tests {
             r: r.clone(),
         };
         let all: Vec<usize> = (0..m.len()).collect();
-        let lower = cut_lower_triangle(&least_member(&matrix, &all, 1));
+        let sum = WeightedSum {
+            matrix: &matrix,
+            diagonal: Definite::Positive,
+        };
+        let lower = cut_lower_triangle(&sum.least_member(&all));
         machine_definite(&lower, SHIFT * m.len() as i64).err()
     }
 

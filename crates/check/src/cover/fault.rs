@@ -103,7 +103,7 @@ pub enum CoverFault {
     /// The symmetric part is not proved definite.
     #[error("{leaf}: expected pivot {index} of the symmetric part {expected} at the {end} end")]
     NotDefinite {
-        /// `positive_definite`, `negative_definite` or `ldl`, as in the file.
+        /// `positive_definite`, `negative_definite`, `weighted_definite` or `ldl`, as in the file.
         leaf: &'static str,
         /// The variable.
         index: usize,

@@ -45,8 +45,9 @@ pub(super) fn check(node: &Node, at: &Region, context: &Context<'_>) -> Result<Y
             Err(CoverFault::Kind { kind: node.kind() })
         }
         Node::Farkas(weights) => Farkas(weights).check(at, context),
-        Node::PositiveDefinite => Definite { sign: 1 }.check(at, context),
-        Node::NegativeDefinite => Definite { sign: -1 }.check(at, context),
+        Node::PositiveDefinite => Definite::Positive.check(at, context),
+        Node::NegativeDefinite => Definite::Negative.check(at, context),
+        Node::WeightedDefinite(weights) => Definite::Weighted(weights).check(at, context),
         Node::Ldl(factors) => factors.check(at, context),
         Node::Support(support) => support.check(at, context),
         Node::Root(root) => root.check(at, context),
