@@ -259,7 +259,7 @@ SUPPORT = record(points=list_of(record(polynomial=INTEGERS, interval=INTERVAL, r
 LDL_FACTOR = record(rows=list_of(RATIONALS), diagonal=RATIONALS)
 NODE = one_of(
     "positive_definite", "negative_definite", "tail", "open", split=number, branch=place, farkas=list_of(weight),
-    ldl=record(lower=LDL_FACTOR, upper=LDL_FACTOR), root=ROOT, support=SUPPORT)
+    weighted_definite=list_of(weight), ldl=record(lower=LDL_FACTOR, upper=LDL_FACTOR), root=ROOT, support=SUPPORT)
 PIECE = record(max=end, anchor=Maybe(place), tree=list_of(NODE))
 CERTIFICATE = record(
     format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu"),
@@ -1324,11 +1324,17 @@ def farkas(list_of_ends, state, weights):
     demand(strict >= set(may) or any(state[j] == MOVING for j in strict), "farkas: not strict")
 
 
-def definite(list_of_ends, state, sign):
+def diagonal(kind, weights, n):
+    """The weights d of a definite leaf (C, Definite leaves)."""
+    return [integer(x) for x in weights] if kind == "weighted_definite" else [1 if kind == "positive_definite" else -1] * n
+
+
+def definite(list_of_ends, state, d):
+    demand(len(d) == len(state), "definite: length")
     may = [j for j in range(len(state)) if state[j] != REST]
     for ends, e, (m, r) in [(ends, e, of) for ends in list_of_ends for e, of in enumerate(ends.both)]:
-        s = [[sign * (m[i][j] + m[j][i]) for j in may] for i in may]
-        radius = [sum(r[i][j] + r[j][i] for j in may) for i in may]
+        s = [[d[i] * m[i][j] + m[j][i] * d[j] for j in may] for i in may]
+        radius = [sum(abs(d[i]) * r[i][j] + r[j][i] * abs(d[j]) for j in may) for i in may]
         if e == 1 and ends.unbounded and not any(map(any, s)) and not any(radius):
             continue
         for i, x in enumerate(radius):
@@ -1853,10 +1859,10 @@ def complete_set(p, rows, window, claims, obj):
                 regions += [(lo, hi, branched(p, state, i, st)) for st in (MOVING, REST)]
             elif kind == "farkas" and value is not None:
                 farkas([pencil.ends(lo, hi, anchor)], state, value)
-            elif kind in ("positive_definite", "negative_definite") and value is None:
+            elif kind in ("positive_definite", "negative_definite", "weighted_definite"):
                 definite_left -= sum(st != REST for st in state) ** 3
                 demand(definite_left >= 0, "definite: more work than the file's budget")
-                definite([pencil.ends(lo, hi, anchor)], state, 1 if kind[0] == "p" else -1)
+                definite([pencil.ends(lo, hi, anchor)], state, diagonal(kind, value, len(state)))
             elif kind == "ldl" and value is not None:
                 ldl(p, lo, hi, state, value)
             elif kind == "root" and value is not None:
@@ -1924,7 +1930,8 @@ CRITICAL_CONDENSATION = record(
 REGULAR = record(
     pivot=place, inverse=list_of(INTEGERS), inverse_exponent=exponent, left=INTEGERS, right=INTEGERS, exponent=exponent)
 CRITICAL_NODE = one_of(
-    "positive_definite", "negative_definite", "tail", split=number, friction=number, branch=place, farkas=list_of(weight), regular=REGULAR)
+    "positive_definite", "negative_definite", "tail", split=number, friction=number, branch=place, farkas=list_of(weight),
+    weighted_definite=list_of(weight), regular=REGULAR)
 CRITICAL = record(**{
     "format": text_of, "problem_sha256": text_of, "from": Maybe(number), "below": number, "condensation": Maybe(CRITICAL_CONDENSATION),
     "pieces": list_of(record(max=end, anchor=Maybe(place), tree=list_of(CRITICAL_NODE)))})
@@ -2175,7 +2182,7 @@ def check_critical(p, doc):
             else:
                 definite_left -= 2 * sum(st != REST for st in state) ** 3
                 demand(definite_left >= 0, "definite: more work than the file's budget")
-                definite(corners(), state, 1 if kind[0] == "p" else -1)
+                definite(corners(), state, diagonal(kind, value, ns))
         demand(not boxes, "a tree that ends early")
     # At friction 0 a particle may slide both ways, of which (9) has one: the sentence leaves 0 out.
     bracket = "[" if lowest > 0 else "("
