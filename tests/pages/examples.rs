@@ -43,12 +43,13 @@ fn names() -> BTreeSet<String> {
 }
 
 /// Kinds of evidence that the certificate of an example contains.
-const EVIDENCE: [&str; 20] = [
+const EVIDENCE: [&str; 21] = [
     "\"exact_solution\"",
     "\"lifted_solution\"",
     "\"enclosed_solution\"",
     "\"farkas\"",
     "\"positive_definite\"",
+    "\"weighted_definite\"",
     "\"ldl\"",
     "\"root\"",
     "\"support\": {",
