@@ -58,7 +58,7 @@ Record local_entry := LocalEntry {
 (* What is shown of a region with an anchor. *)
 Inductive local_leaf :=
   | LocalFarkas of seq Z
-  | LocalDefinite of bool & factor & factor
+  | LocalDefinite of seq Z & factor & factor
   | LocalAbsent of absence
   | LocalRoot of isolation & outcome.
 
@@ -260,7 +260,7 @@ Definition local_region (r : region) : region := Region (0, 1) (1, 1) (states r)
 Definition check_local (P : enclosed) (r : region) (l : local_leaf) : bool :=
   match l with
   | LocalFarkas w => farkas P r w
-  | LocalDefinite negative low high => definite P negative r low high
+  | LocalDefinite d low high => definite P d r low high
   | LocalAbsent c => check_absent P r c
   | LocalRoot c o => check_root P r c o
   end.

@@ -837,7 +837,7 @@ case/and3P: checked => _ _; rewrite tight => ok.
 have [fam_sol _] := to_family false u0 sol.
 have [A [B [E lin_sol]]] := line_solution (local_line u0 u1) fam_sol.
 have reg := in_local_region u0 u1 ag.
-move: tight ok; case: (l) => [w|negative low high|c|c o] /= tight ok.
+move: tight ok; case: (l) => [w|d low high|c|c o] /= tight ok.
 - exact: (farkas_sound E local_ordered ok reg lin_sol).
 - exact: (definite_sound E local_ordered ok reg lin_sol).
 - have D : decided (pencil_for false grain) local_r by case/and5P: ok.

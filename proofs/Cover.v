@@ -3,7 +3,7 @@
    A leaf is one of
 
      Farkas w                w excludes every solution of the region (Farkas.v);
-     Definite sign low high  a definite form excludes every solution (Definite.v);
+     Definite d low high     a form with weights d excludes every solution (Definite.v);
      Absent c                no null vector in a decided region (RootLeaf.v);
      Root h c o              one null vector, with the outcome o (RootLeaf.v);
      Claimed h c n           at most one null vector, that of the known solution n (Pinned.v);
@@ -144,7 +144,7 @@ Variable whole : Type.
 
 Inductive leaf :=
   | Farkas of seq Z
-  | Definite of bool & factor & factor
+  | Definite of seq Z & factor & factor
   | Absent of absence
   | Root of interval & isolation & outcome
   | Claimed of interval & pinning & nat
@@ -197,7 +197,7 @@ Definition undecided (tr : tree leaf) (r : region) :=
 Definition check_leaf (r : region) (l : leaf) : bool :=
   match l with
   | Farkas w => farkas P r w
-  | Definite negative low high => definite P negative r low high
+  | Definite d low high => definite P d r low high
   | Absent c => check_absent P r c
   | Root h c o => reaches r h && check_root P (extended r h) c o
   | Claimed h c n =>
@@ -243,7 +243,7 @@ Lemma leaf_sound r l t x :
   (exists2 y, yielded P solutions (r, l) = Some y & in_region_of P t x (yield_region y)) \/
   l = Undecided.
 Proof.
-move=> O; case: l => [w|negative low high|c|h c o|h c n|h c z|w|] /= ok reg sol; last by right.
+move=> O; case: l => [w|d low high|c|h c o|h c n|h c z|w|] /= ok reg sol; last by right.
 - by case: (farkas_sound E O ok reg sol).
 - by case: (definite_sound E O ok reg sol).
 - have D : decided P r by case/and5P: ok.

@@ -342,27 +342,27 @@ split=> // st [i il xi]; apply: form1 => //; exists (index i l); last by rewrite
 by rewrite mem_iota sz /= index_mem.
 Qed.
 
-Variables (idx : seq nat) (M : nat -> nat -> R) (sg c : R).
+Variables (idx : seq nat) (M : nat -> nat -> R) (c : R).
 Hypotheses (uniq_idx : uniq idx) (uniq_l : uniq l) (inside : {subset l <= idx}) (c0 : 0 < c).
 Hypothesis off : forall i, i \in idx -> i \notin l -> x i = 0.
 Hypothesis below : forall i j, i \in l -> j \in l ->
-  x i * toR (s (item i) (item j)) * x j <= x i * (c * (sg * (M i j + M j i))) * x j.
+  x i * toR (s (item i) (item j)) * x j <= x i * (c * (M i j + M j i)) * x j.
 
 Notation quadratic := (\sum_(i <- idx) \sum_(j <- idx) x i * M i j * x j).
 
 Lemma covered_quadratic :
-  0 <= sg * quadratic /\ (strict -> (exists2 i, i \in idx & x i != 0) -> 0 < sg * quadratic).
+  0 <= quadratic /\ (strict -> (exists2 i, i \in idx & x i != 0) -> 0 < quadratic).
 Proof.
 have over (f : nat -> R) : (forall i, x i = 0 -> f i = 0) ->
   \sum_(i <- idx) f i = \sum_(i <- l) f i.
   by move=> f0; apply: sum_subset => // i Hi out; apply/f0/off.
 have [form0 form1] := covered_list; have c2 : 0 < 2%:R * c by rewrite mulr_gt0 ?ltr0n.
 
-have le : listed <= 2%:R * c * (sg * quadratic).
+have le : listed <= 2%:R * c * quadratic.
   have transposed : \sum_(i <- idx) \sum_(j <- idx) x i * M j i * x j = quadratic.
     rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => j _ /=.
     by move: (x i) (x j) (M _ _) => *; ring.
-  have -> : 2%:R * c * (sg * quadratic) = c * (sg * (quadratic + quadratic)).
+  have -> : 2%:R * c * quadratic = c * (quadratic + quadratic).
     by move: quadratic => *; ring.
   rewrite -{2}transposed -big_split !mulr_sumr over => [|i xi]; last first.
     by rewrite /= !sum_zero ?addr0 ?mulr0 // => j _; rewrite xi !mul0r.

@@ -10,10 +10,10 @@
    same factors of the rows.  A leaf is
 
      BoxFarkas w           w excludes the solutions of the box, by the condensed parts;
-     BoxDefinite sign f f' a form has one sign on the box, by the condensed parts;
+     BoxDefinite d f f'    a form with weights d is positive on the box, by the condensed parts;
      BoxRegular w          the matrix of a decided box has no null vector, by the condensed parts
                            (Regular.v);
-     BoxWhole w w'         a form has one sign, for the whole pencils at both ends of the interval
+     BoxWhole w w'         a form is positive, for the whole pencils at both ends of the interval
                            of mu;
      BoxHalves             right and left of a z particle both move, so no motion is in the box.
 
@@ -21,8 +21,8 @@
 
    The pencils of a leaf BoxWhole are those of the system in which z particles are free
    ([freed]).  There a motion with (9) has x'y <= 0, because no power comes from a z particle
-   (ZeroPower.v), so a form of the sign + excludes it.  In the split form no symmetric part is
-   definite while right and left may both move.
+   (ZeroPower.v), so a form excludes it, if its weights at z particles are not negative.  In the
+   split form no symmetric part is definite while right and left may both move.
 
    Theorem [zero_critical_absent]: if the check succeeds, then for every mu in [from, bound] and
    every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
@@ -36,7 +36,7 @@ From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Defini
 
 Inductive critical_leaf :=
   | BoxFarkas of seq Z
-  | BoxDefinite of bool & factor * factor & factor * factor
+  | BoxDefinite of seq Z & factor * factor & factor * factor
   | BoxRegular of regular
   | BoxWhole of whole & whole
   | BoxHalves.
@@ -45,8 +45,7 @@ Inductive critical_leaf :=
 Definition check_parts (P P' : enclosed) (r : region) (low high : point) (l : critical_leaf) :=
   match l with
   | BoxFarkas v => box_farkas (mixed low P P') (mixed high P P') r v
-  | BoxDefinite negative f f' =>
-      box_definite (mixed low P P') (mixed high P P') r negative f f'
+  | BoxDefinite d f f' => box_definite (mixed low P P') (mixed high P P') r d f f'
   | BoxRegular v => box_regular (mixed low P P') (mixed high P P') r v
   | BoxWhole _ _ | BoxHalves => false
   end.
@@ -69,7 +68,6 @@ Definition pencil_at (e : point) := zero_pencil (freed z) (Lambda2 e.1 e.2).
 
 (* Weights of slip rows are the same at both ends; those of free rows need not be. *)
 Definition same_weights (a b : whole) :=
-  Bool.eqb (whole_negative a) (whole_negative b) &&
   all (fun i => nth 1 (whole_weights a) i =? nth 1 (whole_weights b) i)%Z
     (iota (free_number (without_zero (freed z))) (size (particles s))).
 
@@ -77,9 +75,8 @@ Definition same_weights (a b : whole) :=
 Definition freed_weight (a : whole) d :=
   nth 1%Z (whole_weights a) (index d (free_dofs (without_zero (freed z)))).
 
-(* With z particles the sign is +, and both rows of a particle have one weight. *)
+(* Both rows of a z particle have one weight, which is not negative. *)
 Definition zero_weights (a : whole) :=
-  (nilp (zero_particles z) || ~~ whole_negative a) &&
   all (fun p => (0 <=? freed_weight a (first_dof p)) &&
                 (freed_weight a (first_dof p) =? freed_weight a (second_dof p)))%Z
     (zero_particles z).
@@ -166,7 +163,7 @@ have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae
     rewrite -[X in X + mu * _]mul1r -one -val.
     by move: (row i) (row' i) (factor i) => *; ring.
   by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
-case: l => [v|negative k k'|v|//|//] /= ok.
+case: l => [v|d k k'|v|//|//] /= ok.
 - exact: (box_farkas_sound O bt El Eh _ ag f0 g0 fg sol ok).
 - exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
 exact: (box_regular_sound El Eh _ O bt ag f0 g0 fg sol ok).
@@ -330,11 +327,9 @@ congr (_ * _); rewrite (perm_big _ perm) /= big_cat /= sum_zero ?add0r; last fir
 by rewrite /zero_dofs big_cat !big_map -big_split.
 Qed.
 
-Lemma freed_power_le0 a : zero_weights z a ->
-  (nilp (zero_particles z) -> freed_power a = 0) /\ freed_power a <= 0.
+Lemma freed_power_le0 a : zero_weights z a -> freed_power a <= 0.
 Proof.
-case/andP=> _ weights; rewrite freed_powerE; split.
-  by case: (zero_particles z) => // _; rewrite big_nil mulr0.
+move=> weights; rewrite freed_powerE.
 have L0 : 0 < L := unit_length_gt0 R wf_s.
 apply: mulr_ge0_le0; first by rewrite invr_ge0 ltW.
 rewrite (big_nth nobody) big_nat -oppr_ge0 -sumrN; apply: sumr_ge0 => j /= lt_j.
@@ -384,7 +379,7 @@ Lemma slip_power_zero f g a b : same_weights z a b ->
   f * toR low.2 + g * toR high.2 = 1 -> f * toR low.1 + g * toR high.1 = mu ->
   f * slip_power a low + g * slip_power b high = 0.
 Proof.
-case/andP=> _ /allP weights one val; rewrite !mulr_sumr -big_split sum_zero // => j.
+move=> /allP weights one val; rewrite !mulr_sumr -big_split sum_zero // => j.
 rewrite mem_iota add0n => lt_j.
 have /Z.eqb_spec same : (nth 1 (whole_weights a) (nf' + j) =? nth 1 (whole_weights b) (nf' + j))%Z.
   by apply: weights; rewrite mem_iota leq_addr ltn_add2l.
@@ -403,27 +398,23 @@ Lemma whole_absent a b :
   [&& same_weights z a b, zero_weights z a, zero_weights z b, check_whole (pencil_at z low) r a &
       check_whole (pencil_at z high) r b] -> False.
 Proof.
-case/and5P=> same zero_a zero_b checked_a checked_b; have /andP[/Bool.eqb_prop signs _] := same.
+case/and5P=> same zero_a zero_b checked_a checked_b.
 have [f [g [f0 g0 [one val] [fg _]]]] := weights_of_ends Om bm.
 have wfQ e : wellformed (pencil_at z e) := zero_pencil_wellformed _ _.
 have la := whole_image (Q := pencil_at z low) (wfQ _) O checked_a bt freed_agrees freed_variables.
 have hb := whole_image (Q := pencil_at z high) (wfQ _) O checked_b bt freed_agrees freed_variables.
-rewrite -signs in hb; have := combination_gt0 f0 g0 fg la hb; rewrite !whole_power.
-set sgn := sign R _; have zero := slip_power_zero same one val.
-have -> : f * (sgn * (freed_power a + slip_power a low)) +
-    g * (sgn * (freed_power b + slip_power b high)) =
-    sgn * (f * freed_power a + g * freed_power b).
-  rewrite -[RHS]addr0 -(mulr0 sgn) -zero.
+have := combination_gt0 f0 g0 fg la hb; rewrite !whole_power.
+have -> : f * (freed_power a + slip_power a low) + g * (freed_power b + slip_power b high) =
+    f * freed_power a + g * freed_power b.
+  rewrite -[RHS]addr0 -(slip_power_zero same one val).
   by move: (freed_power a) (freed_power b) (slip_power a _) (slip_power b _) => *; ring.
-have [za a0] := freed_power_le0 zero_a; have [zb b0] := freed_power_le0 zero_b.
-case/andP: zero_a => /orP[none|positive] _; first by rewrite za ?zb // !mulr0 addr0 mulr0 ltxx.
-rewrite /sgn /sign (negbTE positive) mul1r ltNge -oppr_ge0 opprD -!mulrN.
-by rewrite addr_ge0 // mulr_ge0 // oppr_ge0.
+rewrite ltNge -oppr_ge0 opprD -!mulrN.
+by rewrite addr_ge0 // mulr_ge0 // oppr_ge0 freed_power_le0.
 Qed.
 
 Lemma whole_leaf_absent l : check_whole_leaf z r low high l -> False.
 Proof.
-case: l => [v'|negative f f'|v'|a b|] //=; first exact: whole_absent.
+case: l => [v'|d f f'|v'|a b|] //=; first exact: whole_absent.
 move=> both; have ag' : agrees (size (slip Q0)) r (slip_of Q0 x) by rewrite size_slips.
 exact: both_not_split ag' both motion_split.
 Qed.

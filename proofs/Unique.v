@@ -80,14 +80,14 @@ Notation radius_of e i j := (toR (radius P e i j) : R).
 (* x'S_e x <= 2 x'T_e x *)
 Lemma signed_part_le e : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
   \sum_(i <- ix) \sum_(j <- ix) x i * toR (signed_part P e i j) * x j <=
-  2%:R * quadratic P A B x e.
+  2%:R * quadratic P A B [::] x e.
 Proof.
 move=> p q.
 pose near i j := 2%:R * (x i * center_of e i j * x j) - radius_of e i j * (x i ^+ 2 + x j ^+ 2).
-have below : \sum_(i <- ix) \sum_(j <- ix) near i j <= 2%:R * quadratic P A B x e.
+have below : \sum_(i <- ix) \sum_(j <- ix) near i j <= 2%:R * quadratic P A B [::] x e.
   rewrite /quadratic mulr_sumr; apply: sum_le => i Hi; rewrite mulr_sumr; apply: sum_le => j Hj.
   have := T_end_enclosed E Hi Hj p q; rewrite ler_distl => /andP[lo hi].
-  exact: near_product.
+  by rewrite /weight_of nth_nil toR1 mul1r; apply: near_product.
 apply: le_trans below; rewrite le_eqVlt; apply/orP; left; apply/eqP.
 pose twice i j := x i * (center_of e i j + center_of e j i) * x j.
 have radii : \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * (x i ^+ 2 + x j ^+ 2) =
@@ -121,10 +121,10 @@ by move: (\sum_(j <- ix) _) (x i) (center_of _ _ _) => *; ring.
 Qed.
 
 Lemma signed_end_sound strict e f : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
-  signed_end P strict e f -> 0 <= 1 * quadratic P A B x e /\
-  (strict -> (exists2 i, i \in ix & x i != 0) -> 0 < 1 * quadratic P A B x e).
+  signed_end P strict e f -> 0 <= quadratic P A B [::] x e /\
+  (strict -> (exists2 i, i \in ix & x i != 0) -> 0 < quadratic P A B [::] x e).
 Proof.
-move=> p q /and3P[w0 /eqP sz C]; rewrite mul1r.
+move=> p q /and3P[w0 /eqP sz C].
 have size_rows : size (factor_rows f) == size ix by rewrite size_iota sz.
 have [|i j _ _|form0 form1] := covered_list (dT := 0%N) (dU := [::]) (l := ix) (item := id) x
   (erefl _) size_rows _ (weighted_gram R _ _ w0) _ C => //; first exact: signed_part_sym.
@@ -143,8 +143,8 @@ have nonzero : exists2 i, i \in ix & x i != 0 by exists i.
 have [p q p' q'] := ordered_ge0 R O.
 have [_ low1] := signed_end_sound p q L; have [high0 high1] := signed_end_sound p' q' H.
 have := form_between O W (low1 isT nonzero) high0 (fun st => high1 st nonzero).
-rewrite mul1r ltNge -oppr_ge0 -sumrN big_seq sumr_ge0 // => j Hj.
-by rewrite oppr_ge0 reversed.
+rewrite ltNge -oppr_ge0 -sumrN big_seq sumr_ge0 // => j Hj.
+by rewrite /weight_of nth_nil toR1 mul1r oppr_ge0 reversed.
 Qed.
 
 End Form.

@@ -3,14 +3,14 @@
    For a solution x' D (A + t B) x = x' D y = 0 for every diagonal matrix D, free variables
    included.  Let S_e, for an end e = (p, q), be the matrix
 
-       +- c (q (DA + (DA)') + p (DB + (DB)'))     over the free variables and those that may move.
+       c (q (DA + (DA)') + p (DB + (DB)'))        over the free variables and those that may move.
 
    The rows of A and B are multiples of those given (Pencil.v), not always by one number; with the
-   right weights D the matrices are those of the certificate.
+   right weights D the matrices are those of the certificate, or their opposites.
 
    Theorem [whole_sound]: if S_e is strictly covered by a factor at the lower end, and at the upper
    end (covered without "strictly" if that end is infinity), then the region has no solution.
-   [whole_image]: x' D (A + t B) x has one sign.
+   [whole_image]: x' D (A + t B) x is positive.
 
    This closes the leaves `ldl` (dense factor with weights) and `tail` (factor whose rows begin at
    their first entry) of a certificate.  An exact L D L' = S gives strict coverage of S after a
@@ -29,10 +29,9 @@ Inductive whole_factor :=
 
 Record whole_end := WholeEnd { end_scale : Z; end_factor : whole_factor }.
 
-(* D (a weight that is missing is 1), the sign, and a factor at each end. *)
+(* D (a weight that is missing is 1), and a factor at each end. *)
 Record whole := WholeLeaf {
   whole_weights : seq Z;
-  whole_negative : bool;
   low_end : whole_end;
   high_end : whole_end }.
 
@@ -57,35 +56,29 @@ Definition members r : seq member :=
 Definition member_entry (e : point) (i j : member) :=
   e.2 * lookup i.2.1 j.1 + e.1 * lookup i.2.2 j.1.
 
-Definition member_form (negative : bool) c e (i j : member) :=
-  c * (if negative then - member_entry e i j - member_entry e j i
-       else member_entry e i j + member_entry e j i).
+Definition member_form c e (i j : member) := c * (member_entry e i j + member_entry e j i).
 
-Definition check_end (strict negative : bool) e r (w : whole_end) :=
+Definition check_end (strict : bool) e r (w : whole_end) :=
   (0 <? end_scale w) &&
   match end_factor w with
   | Dense weights rows =>
       [&& all (fun u => 0 <=? u) weights, size rows == size (members r) &
-          covered (member_form negative (end_scale w) e) (weighted_dot weights) strict
+          covered (member_form (end_scale w) e) (weighted_dot weights) strict
             (zip (members r) rows)]
   | Late m rows =>
       [&& 0 <=? m, size rows == size (members r) &
-          covered (member_form negative (end_scale w) e) (fun a b => m * late_dot a b) strict
+          covered (member_form (end_scale w) e) (fun a b => m * late_dot a b) strict
             (zip (members r) rows)]
   end.
 
 End Checker.
 
 Definition check_whole Q (r : region) (w : whole) :=
-  check_end Q (whole_weights w) true (whole_negative w) (lower r) r (low_end w) &&
-  check_end Q (whole_weights w) (0 <? (upper r).2)%Z (whole_negative w) (upper r) r (high_end w).
+  check_end Q (whole_weights w) true (lower r) r (low_end w) &&
+  check_end Q (whole_weights w) (0 <? (upper r).2)%Z (upper r) r (high_end w).
 
-Lemma member_form_sym negative c e i j :
-  member_form negative c e i j = member_form negative c e j i.
-Proof.
-rewrite /member_form; move: (member_entry e i j) (member_entry e j i) => a b.
-congr (c * _)%Z; by case: negative; lia.
-Qed.
+Lemma member_form_sym c e i j : member_form c e i j = member_form c e j i.
+Proof. by rewrite /member_form Z.add_comm. Qed.
 
 Section Sound.
 
@@ -96,7 +89,7 @@ Notation indices := (iota 0 (order Q)).
 Variables (r : region) (x : nat -> R).
 Hypothesis ag : agrees (size (slip Q)) r (slip_of Q x).
 
-Definition weight_of i : R := toR (nth 1%Z weight i).
+Notation weight_of := (weight_of R weight).
 
 Definition end_entry (e : point) i j : R :=
   weight_of i * (toR e.2 * a_entry R Q i j + toR e.1 * b_entry R Q i j).
@@ -139,13 +132,13 @@ rewrite /member_entry !lookup_times toRD !toRM /end_entry /weight_of /a_entry /b
 by move: (toR (nth _ _ _)) (toR (lookup _ _)) (toR (lookup _ _)) => *; ring.
 Qed.
 
-(* The integer form is 2 c times the form of the pencil, up to the sign. *)
-Lemma covered_end_sound U (d : U) product strict negative c e (rows : seq U) :
+(* The integer form is 2 c times the form of the pencil. *)
+Lemma covered_end_sound U (d : U) product strict c e (rows : seq U) :
   (0 <? c)%Z -> size rows == size (members Q weight r) ->
   gram R (nobody, d) product (zip (members Q weight r) rows) ->
-  covered (member_form negative c e) product strict (zip (members Q weight r) rows) ->
-  0 <= sign R negative * whole_quadratic e /\
-  (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
+  covered (member_form c e) product strict (zip (members Q weight r) rows) ->
+  0 <= whole_quadratic e /\
+  (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < whole_quadratic e).
 Proof.
 move=> c0 sz gr cov; have szm : size (members Q weight r) = size (may_move Q r) by rewrite size_map.
 rewrite szm in sz; pose rows_of i := (weighted weight i (row_a Q i), weighted weight i (row_b Q i)).
@@ -155,14 +148,12 @@ apply: (covered_quadratic (item := fun i => (i, rows_of i)) (c := toR c) szm sz 
 - by move=> *; apply: member_form_sym.
 - exact: may_move_indices.
 - exact: zero_unless_may_move.
-move=> i j _ _; rewrite /member_form toRM /sign; case: (negative).
-  by rewrite toRB toRN !member_entryE mulN1r opprD lexx.
-by rewrite toRD !member_entryE mul1r lexx.
+by move=> i j _ _; rewrite /member_form toRM toRD !member_entryE lexx.
 Qed.
 
-Lemma check_end_sound strict negative e w : check_end Q weight strict negative e r w ->
-  0 <= sign R negative * whole_quadratic e /\
-  (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < sign R negative * whole_quadratic e).
+Lemma check_end_sound strict e w : check_end Q weight strict e r w ->
+  0 <= whole_quadratic e /\
+  (strict -> (exists2 i, i \in indices & x i != 0) -> 0 < whole_quadratic e).
 Proof.
 case/andP=> c0; case: (end_factor w) => [weights rows|m rows] /and3P[w0 sz cov].
   exact: (covered_end_sound c0 sz (weighted_gram R (nobody, [::]) _ w0) cov).
@@ -175,19 +166,16 @@ Lemma whole_image (R : rcfType) Q r w (t : R) x :
   wellformed Q -> ordered (lower r) (upper r) -> check_whole Q r w ->
   between t (lower r) (upper r) -> agrees (size (slip Q)) r (slip_of Q x) ->
   (exists2 i, i \in iota 0 (order Q) & x i != 0) ->
-  0 < sign R (whole_negative w) * \sum_(i <- iota 0 (order Q))
-        weight_of R (whole_weights w) i * (x i * reaction Q t x i).
+  0 < \sum_(i <- iota 0 (order Q)) weight_of R (whole_weights w) i * (x i * reaction Q t x i).
 Proof.
 move=> wf O /andP[L H] bt ag nonzero.
 have [a [b [a0 b0 [one val] pos]]] := weights_of_ends O bt.
 set d := whole_weights w in L H *.
 have [low0 low1] := check_end_sound wf ag L.
 have [high0 high1] := check_end_sound wf ag H.
-set s := sign R (whole_negative w) in low0 low1 high0 high1 *.
 
-have -> : s * (\sum_(i <- iota 0 (order Q)) weight_of R d i * (x i * reaction Q t x i)) =
-          a * (s * whole_quadratic Q d x (lower r)) + b * (s * whole_quadratic Q d x (upper r)).
-  rewrite !(mulrCA _ s) -mulrDr; congr (_ * _).
+have -> : \sum_(i <- iota 0 (order Q)) weight_of R d i * (x i * reaction Q t x i) =
+          a * whole_quadratic Q d x (lower r) + b * whole_quadratic Q d x (upper r).
   rewrite /whole_quadratic !mulr_sumr -big_split; apply: eq_bigr => i _.
   rewrite /reaction !mulr_sumr -big_split; apply: eq_bigr => j _ /=.
   rewrite /end_entry -[X in X + t * _]mul1r -one -[in LHS]val.
@@ -202,6 +190,6 @@ Theorem whole_sound (R : rcfType) Q r w (t : R) x :
   solution Q t x -> False.
 Proof.
 move=> wf O ok bt ag [_ nonzero rows_f rows_s].
-have := whole_image wf O ok bt ag nonzero; rewrite sum_zero ?mulr0 ?ltxx // => i Hi.
+have := whole_image wf O ok bt ag nonzero; rewrite sum_zero ?ltxx // => i Hi.
 by case/orP: (free_or_slip Hi) => [/rows_f->|/rows_s[_ _ ->]]; rewrite !mulr0.
 Qed.

@@ -37,11 +37,14 @@ type support_leaf = {
   cells : int list;
   reasons : reason list }
 
+(* The diagonal matrix D of a definite leaf: 1, -1, or the weights of the file. *)
+type diagonal = Identity | Opposite | Weighted of Z.t list
+
 type node =
   | Split of Q.t
   | Branch of int
   | Farkas of Z.t list
-  | Definite of bool  (* negative *)
+  | Definite of diagonal
   | Ldl
   | Tail
   | Open
@@ -93,7 +96,7 @@ type critical_node =
   | CutFriction of Q.t
   | Decide of int
   | BoxFarkas of Z.t list
-  | BoxDefinite of bool  (* negative *)
+  | BoxDefinite of diagonal
   | BoxRegular of int  (* the pivot; inverse and vectors are read and not used *)
   | BoxTail
 
@@ -184,6 +187,7 @@ let exponent_of item =
   e
 
 let integers item = List.map integer (list item)
+let weights item = List.map weight (list item)
 
 let read_root item =
   let field = fields
@@ -234,13 +238,14 @@ let read_support item =
     reasons = List.map read_reason (list (field "reasons")) }
 
 let read_node = function
-  | String "positive_definite" -> Definite false
-  | String "negative_definite" -> Definite true
+  | String "positive_definite" -> Definite Identity
+  | String "negative_definite" -> Definite Opposite
+  | Object ["weighted_definite", d] -> Definite (Weighted (weights d))
   | String "tail" -> Tail
   | String "open" -> Open
   | Object ["split", t] -> Split (rational t)
   | Object ["branch", i] -> Branch (place i)
-  | Object ["farkas", w] -> Farkas (integers w)
+  | Object ["farkas", w] -> Farkas (weights w)
   | Object ["ldl", _] -> Ldl
   | Object ["root", r] -> Root (read_root r)
   | Object ["support", s] -> Support (read_support s)
@@ -383,13 +388,14 @@ let read_evidence field =
 let read_regular item = BoxRegular (read_evidence (fields evidence [] item))
 
 let read_critical_node = function
-  | String "positive_definite" -> BoxDefinite false
-  | String "negative_definite" -> BoxDefinite true
+  | String "positive_definite" -> BoxDefinite Identity
+  | String "negative_definite" -> BoxDefinite Opposite
+  | Object ["weighted_definite", d] -> BoxDefinite (Weighted (weights d))
   | String "tail" -> BoxTail
   | Object ["split", t] -> CutValue (rational t)
   | Object ["friction", m] -> CutFriction (rational m)
   | Object ["branch", i] -> Decide (place i)
-  | Object ["farkas", w] -> BoxFarkas (integers w)
+  | Object ["farkas", w] -> BoxFarkas (weights w)
   | Object ["regular", r] -> read_regular r
   | _ -> malformed "a node of a tree"
 

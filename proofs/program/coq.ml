@@ -51,14 +51,13 @@ let whole_factor = function
 let whole_end e = term ["WholeEnd"; integer e.end_scale; whole_factor e.end_factor]
 
 let whole w =
-  term ["WholeLeaf"; integers w.whole_weights; string_of_bool w.whole_negative;
-        whole_end w.low_end; whole_end w.high_end]
+  term ["WholeLeaf"; integers w.whole_weights; whole_end w.low_end; whole_end w.high_end]
 
 (* The first argument of a leaf is the type of the evidence about the whole pencil. *)
 let leaf = function
   | Farkas w -> term ["Farkas"; "whole"; integers w]
-  | Definite (negative, low, high) ->
-    term ["Definite"; "whole"; string_of_bool negative; factor low; factor high]
+  | Definite (d, low, high) ->
+    term ["Definite"; "whole"; integers d; factor low; factor high]
   | Absent a -> term ["Absent"; "whole"; absence a]
   | Root (i, c, o) -> term ["Root"; "whole"; interval i; isolation c; outcome o]
   | Infinite (i, p, x) -> term ["Infinite"; "whole"; interval i; pinning p; integers x]

@@ -40,15 +40,20 @@ let whole_pencil c e =
   let pencil = Kernel.pencil_at c.zero e in
   pencil, row_weights pencil c.free_factor (Z.mul c.slip_factor (snd e))
 
-let by_whole c negative box =
-  let at e =
+(* Weights of complementarity rows alone say nothing of the whole pencil. *)
+let by_whole c diagonal box =
+  let at times e =
     let pencil, weights = whole_pencil c e in
     spend pencil.order;
-    signed_whole_leaf pencil weights negative box.region in
-  if c.radii <> None || (negative && c.zero.zero_particles <> []) then None
-  else match at box.low with
+    weighted_whole_leaf pencil (times pencil.Kernel.order weights) box.region in
+  let with_weights times = match at times box.low with
     | None -> None
-    | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at box.high)
+    | Some a -> Option.map (fun b -> Kernel.BoxWhole (a, b)) (at times box.high) in
+  match diagonal with
+  | _ when c.radii <> None -> None
+  | Identity -> with_weights (fun _ weights -> weights)
+  | Opposite when c.zero.zero_particles = [] -> with_weights opposite
+  | Opposite | Weighted _ -> None
 
 (* What the matrices at the corners of a box cost: entries and words. *)
 let spend_box ns box =
@@ -57,15 +62,15 @@ let spend_box ns box =
   if !spent > 1 lsl 30 then Problem.not_verified "boxes beyond the limits of this program"
 
 (* Factors at the ends of the interval of mu, for the local or the condensed parts. *)
-let definite_box (plain, friction) negative region box =
+let definite_box (plain, friction) diagonal region box =
   let at e =
     spend plain.Kernel.size_of;
-    match definite_leaf (Kernel.mixed e plain friction) negative region with
-    | Some (Kernel.Definite (_, low, high)) -> Some (low, high)
+    match definite_leaf (Kernel.mixed e plain friction) diagonal region with
+    | Some (Kernel.Definite (d, low, high)) -> Some (d, (low, high))
     | _ -> None in
   match at box.low with
   | None -> None
-  | Some f -> Option.map (fun f' -> Kernel.BoxDefinite (negative, f, f')) (at box.high)
+  | Some (d, f) -> Option.map (fun (_, f') -> Kernel.BoxDefinite (d, f, f')) (at box.high)
 
 (* A corner of a box: the enclosed pencil at an end of the interval of mu, an end of the interval of
    t, and the factor that both ends bring into its matrix. *)
@@ -200,7 +205,7 @@ let by_tail c box =
       let no_factor =
         { Kernel.end_scale = Z.one;
           end_factor = Kernel.Late (Z.zero, List.init pencil.order (fun _ -> (0, []))) } in
-      let w = { Kernel.whole_weights; whole_negative = false;
+      let w = { Kernel.whole_weights;
                 low_end = covered (snd box.region.lower) factor;
                 high_end = Option.fold ~none:no_factor ~some:(covered Z.one) mass_factor } in
       if Kernel.check_whole pencil box.region w then Some w else None in
@@ -443,6 +448,8 @@ let along_value c =
   if c.radii = None then six_times else List.init 24 (fun _ -> Along_value)
 let in_turn = List.concat (List.init 3 (fun _ -> [Along_value; Along_friction]))
 
+let for_each c weights = one_for_each (Array.length c.slip) weights
+
 let no_leaf node =
   match node with
   | CutValue _ | CutFriction _ | Decide _ -> assert false
@@ -461,8 +468,9 @@ let member_tail c v box =
       Kernel.Split (cut, closed k lower, intervals (k + 1) upper rest)
     | _ -> closed k box
   and closed k box =
+    let definite box parts region = definite_box parts Identity region box in
     close "tail" [Along_value; Along_value; Along_value] [fun box ->
-        about c v (first + k) box (fun parts region -> definite_box parts false region box)] box in
+        about c v (first + k) box (definite box)] box in
   if finite box.region.upper || first < 0 then no_witness "tail" else intervals 0 box ends
 
 let anchored_leaf c v piece box node =
@@ -470,18 +478,19 @@ let anchored_leaf c v piece box node =
   let number () = match List.assoc_opt piece.box_anchor v.numbers with
     | Some n -> n
     | None -> no_witness "a piece names no anchor" in
-  let whole negative box = as_whole (by_whole c negative box) in
+  let whole diagonal box = as_whole (by_whole c diagonal box) in
   match node with
   | BoxFarkas w ->
+    let w = for_each c w in
     close "farkas" (along_value c) [fun box -> about c v (number ()) box (fun _ _ ->
         Some (Kernel.BoxFarkas w))] box
-  | BoxDefinite negative ->
+  | BoxDefinite diagonal ->
     let by_anchor box =
-      about c v (number ()) box (fun parts region -> definite_box parts negative region box) in
+      about c v (number ()) box (fun parts region -> definite_box parts diagonal region box) in
     (match by_anchor box with
      | Some l -> Kernel.Leaf l
      | None ->
-       match whole negative box with
+       match whole diagonal box with
        | Some l -> Kernel.Leaf l
        | None -> close "definite" (along_value c) [by_anchor] box)
   | BoxRegular pivot ->
@@ -489,7 +498,7 @@ let anchored_leaf c v piece box node =
     close "regular" in_turn [fun box -> about c v (number ()) box (fun parts region ->
         regular_box parts k region box)] box
   | _ when c.radii <> None -> member_tail c v box
-  | _ -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole false] box
+  | _ -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole Identity] box
 
 (* ---------- without free variables *)
 
@@ -501,16 +510,16 @@ let leaf_of_parts c parts _ box node =
     | Some l -> Kernel.Leaf l
     | None -> no_witness "%s" what in
   match node with
-  | BoxFarkas w when parts <> None -> Kernel.Leaf (Kernel.BoxFarkas w)
-  | BoxDefinite negative ->
+  | BoxFarkas w when parts <> None -> Kernel.Leaf (Kernel.BoxFarkas (for_each c w))
+  | BoxDefinite diagonal ->
     let by_parts box =
-      Option.bind parts (fun parts -> definite_box parts negative box.region box) in
-    found "definite" [by_parts; by_whole c negative]
+      Option.bind parts (fun parts -> definite_box parts diagonal box.region box) in
+    found "definite" [by_parts; by_whole c diagonal]
   | BoxRegular pivot ->
     let k = position c.slip pivot in
     close "regular" in_turn [fun box ->
         Option.bind parts (fun parts -> regular_box parts k box.region box)] box
-  | BoxTail -> found "tail" [by_tail c; by_whole c false]
+  | BoxTail -> found "tail" [by_tail c; by_whole c Identity]
   | _ -> no_witness "a condensation is missing"
 
 (* For members: the first anchor where the interval is finite, the second one towards infinity. *)
@@ -522,14 +531,16 @@ let member_leaf_without_free c v _ box node =
   let closed what directions make =
     let way box = Option.bind (number box) (fun n -> about c v n box (make box)) in
     close what directions [way] box in
-  let definite negative box parts region = definite_box parts negative region box in
+  let definite diagonal box parts region = definite_box parts diagonal region box in
   match node with
-  | BoxFarkas w -> closed "farkas" (along_value c) (fun _ _ _ -> Some (Kernel.BoxFarkas w))
-  | BoxDefinite negative -> closed "definite" (along_value c) (definite negative)
+  | BoxFarkas w ->
+    let w = for_each c w in
+    closed "farkas" (along_value c) (fun _ _ _ -> Some (Kernel.BoxFarkas w))
+  | BoxDefinite diagonal -> closed "definite" (along_value c) (definite diagonal)
   | BoxRegular pivot ->
     let k = position c.slip pivot in
     closed "regular" in_turn (fun box parts region -> regular_box parts k region box)
-  | _ -> closed "tail" (along_value c) (definite false)
+  | _ -> closed "tail" (along_value c) (definite Identity)
 
 (* ---------- trees *)
 

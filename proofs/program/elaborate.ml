@@ -87,13 +87,16 @@ let factor_rows strict s =
     let scale = largest f in
     let rec attempt = function
       | [] -> None
-      | d :: rest ->
+      | margin :: rest ->
         let x = Array.mapi (fun i row ->
-            Array.mapi (fun j v -> if i = j then v -. d *. scale else v) row) f in
+            Array.mapi (fun j v -> if i = j then v -. margin v else v) row) f in
         match cholesky x with
         | Some l -> Some (Array.map (Array.map (fun v -> round_scaled v (shift / 2))) l)
         | None -> attempt rest in
-    attempt [1e-4; 1e-6; 1e-7; 1e-8; 1e-9; 1e-10; 1e-11; 1e-12; 1e-13]
+    let of_largest d _ = d *. scale and of_own d v = d *. v in
+    (* Weights give rows of different orders of magnitude; then each has a margin of its own. *)
+    attempt (List.map of_largest [1e-4; 1e-6; 1e-7; 1e-8; 1e-9; 1e-10; 1e-11; 1e-12; 1e-13]
+             @ List.map of_own [1e-3; 1e-6; 1e-9])
   end
 
 let late_row row =
@@ -124,12 +127,12 @@ let exact_ldl s =
   done;
   if !ok then Some (l, d) else None
 
-let whole_end pencil weights negative strict e region =
+let whole_end pencil weights strict e region =
   let members = Array.of_list (Kernel.members pencil weights region) in
   let n = Array.length members in
   let form c = Array.init n (fun i -> Array.init n (fun j ->
-      Kernel.member_form negative c e members.(i) members.(j))) in
-  let accepted w = Kernel.check_end pencil weights strict negative e region w in
+      Kernel.member_form c e members.(i) members.(j))) in
+  let accepted w = Kernel.check_end pencil weights strict e region w in
   let rounded () =
     let c = two_to 112 in
     match factor_rows strict (form c) with
@@ -170,38 +173,55 @@ let row_weights (pencil : Kernel.pencil) common slip_common =
     List.init pencil.order (fun i ->
         if List.mem i pencil.free then Z.divexact slip_common common else Z.one)
 
-(* A definite leaf of the whole pencil, of one sign. *)
-let signed_whole_leaf pencil weights negative (region : Kernel.region) =
+(* For the kernel a weight that is missing is 1. *)
+let opposite n = function
+  | [] -> List.init n (fun _ -> Z.minus_one)
+  | weights -> List.map Z.neg weights
+
+(* A leaf of the whole pencil, definite with these weights. *)
+let weighted_whole_leaf pencil weights (region : Kernel.region) =
   let finite = Z.sign (snd region.upper) > 0 in
-  match whole_end pencil weights negative true region.lower region with
+  match whole_end pencil weights true region.lower region with
   | None -> None
   | Some low_end ->
-    match whole_end pencil weights negative finite region.upper region with
+    match whole_end pencil weights finite region.upper region with
     | None -> None
-    | Some high_end ->
-      Some { Kernel.whole_weights = weights; whole_negative = negative; low_end; high_end }
+    | Some high_end -> Some { Kernel.whole_weights = weights; low_end; high_end }
 
-(* Of either sign. *)
-let whole_leaf pencil weights region =
-  match signed_whole_leaf pencil weights false region with
+(* With these weights, or with their opposites. *)
+let whole_leaf (pencil : Kernel.pencil) weights region =
+  match weighted_whole_leaf pencil weights region with
   | Some w -> Some w
-  | None -> signed_whole_leaf pencil weights true region
+  | None -> weighted_whole_leaf pencil (opposite pencil.order weights) region
 
 (* ---------- leaves of the condensed pencil *)
 
-let definite_leaf p negative (region : Kernel.region) =
+(* Weights of a file: one for each of the n complementarity variables. *)
+let one_for_each n weights =
+  if List.compare_length_with weights n <> 0 then no_witness "a list of weights of another length";
+  weights
+
+(* The weights of the kernel.  A factor common to all changes nothing; 2^64 makes the rounding of
+   the factor of a form small beside the least weight. *)
+let diagonal_weights n = function
+  | Identity -> []
+  | Opposite -> opposite n []
+  | Weighted d -> List.map (fun w -> Z.shift_left w 64) (one_for_each n d)
+
+let definite_leaf (p : Kernel.enclosed) diagonal (region : Kernel.region) =
+  let d = diagonal_weights p.size_of diagonal in
   let active = Array.of_list (Kernel.active p region) in
   let factor strict e =
     let s = Array.map (fun i ->
-        Array.map (fun j -> Kernel.symmetric_part p negative e i j) active) active in
+        Array.map (fun j -> Kernel.symmetric_part p d e i j) active) active in
     match factor_rows strict s with
     | None -> None
     | Some rows ->
       let f = { Kernel.weights = List.init (Array.length active) (fun _ -> Z.one);
                 factor_rows = Array.to_list (Array.map Array.to_list rows) } in
-      if Kernel.definite_end p negative strict e region f then Some f else None in
+      if Kernel.definite_end p d strict e region f then Some f else None in
   match factor true region.lower, factor (Z.sign (snd region.upper) > 0) region.upper with
-  | Some low, Some high -> Some (Kernel.Definite (negative, low, high))
+  | Some low, Some high -> Some (Kernel.Definite (d, low, high))
   | _ -> None
 
 (* Factors of the forms at both ends for vectors of any signs (Unique.v). *)
@@ -467,8 +487,8 @@ let absent_leaf p f (region : Kernel.region) =
 
 (* A decided interval without a null vector, in pieces. *)
 let rec absent_tree p f depth (region : Kernel.region) =
-  let ways = [ (fun () -> absent_leaf p f region); (fun () -> definite_leaf p false region);
-               (fun () -> definite_leaf p true region) ] in
+  let ways = [ (fun () -> absent_leaf p f region); (fun () -> definite_leaf p Identity region);
+               (fun () -> definite_leaf p Opposite region) ] in
   match List.find_map (fun way -> way ()) ways with
   | Some leaf -> Kernel.Leaf leaf
   | None ->
@@ -565,11 +585,12 @@ let build_leaf c (region : Kernel.region) node =
   let whole () =
     Option.map (fun w -> Kernel.Whole w) (whole_leaf c.pencil c.weights region) in
   match node with
-  | Farkas w -> Kernel.Leaf (Kernel.Farkas w)
-  | Definite negative ->
-    (match definite_leaf p negative region with
-     | Some l -> Kernel.Leaf l
-     | None -> leaf "definite" (whole ()))
+  | Farkas w -> Kernel.Leaf (Kernel.Farkas (one_for_each p.size_of w))
+  | Definite diagonal ->
+    (match definite_leaf p diagonal region, diagonal with
+     | Some l, _ -> Kernel.Leaf l
+     | None, Weighted _ -> no_witness "definite"
+     | None, (Identity | Opposite) -> leaf "definite" (whole ()))
   | Ldl -> leaf "ldl" (whole ())
   | Tail -> leaf "tail" (whole ())
   | Root r ->
@@ -937,7 +958,7 @@ let checked p unit_region e =
 
 let local_of = function
   | Kernel.Farkas w -> Some (Kernel.LocalFarkas w)
-  | Kernel.Definite (negative, low, high) -> Some (Kernel.LocalDefinite (negative, low, high))
+  | Kernel.Definite (d, low, high) -> Some (Kernel.LocalDefinite (d, low, high))
   | Kernel.Absent c -> Some (Kernel.LocalAbsent c)
   | Kernel.Root (_, c, o) -> Some (Kernel.LocalRoot (c, o))
   | _ -> None
@@ -948,10 +969,12 @@ let by_local v n (region : Kernel.region) make =
           Kernel.OfAnchor (n, grain, (region.lower, region.upper), e))
         (checked p r (make p f r)))
 
-let by_farkas v n w region = by_local v n region (fun _ _ _ -> Some (Kernel.LocalFarkas w))
+let by_farkas v n w region =
+  let w = one_for_each (Array.length v.slip_list) w in
+  by_local v n region (fun _ _ _ -> Some (Kernel.LocalFarkas w))
 
-let by_definite v n negative region =
-  by_local v n region (fun p _ r -> Option.bind (definite_leaf p negative r) local_of)
+let by_definite v n diagonal region =
+  by_local v n region (fun p _ r -> Option.bind (definite_leaf p diagonal r) local_of)
 
 let by_absent v n region =
   by_local v n region (fun p f r -> Option.bind (absent_leaf p f r) local_of)
@@ -1022,7 +1045,7 @@ let rec close what depth ways (region : Kernel.region) =
     let first = close what (depth - 1) ways { region with upper = cut } in
     Kernel.Split (cut, first, close what (depth - 1) ways { region with lower = cut })
 
-let absent_ways v n = [ by_absent v n; by_definite v n false; by_definite v n true ]
+let absent_ways v n = [ by_absent v n; by_definite v n Identity; by_definite v n Opposite ]
 
 (* The radii of a local pencil fall with the square of the width: cuts are much nearer. *)
 let varying_narrow v n what attempt interval region =
@@ -1036,7 +1059,7 @@ let tail_leaf v (region : Kernel.region) =
     let power = two_to (2 * f.exponent) and two = Z.of_int 2 in
     let low = Z.mul two (Z.mul v.uniform_factor (snd region.lower)) in
     let rows = rows_from f in
-    let w = { Kernel.whole_weights = v.weights; whole_negative = false;
+    let w = { Kernel.whole_weights = v.weights;
               low_end = { Kernel.end_scale = power; end_factor = Kernel.Late (low, rows) };
               high_end = { Kernel.end_scale = Z.one;
                            end_factor = Kernel.Late (Z.zero, List.map (fun _ -> (0, [])) rows) } }
@@ -1057,7 +1080,7 @@ let varying_leaf v (piece : piece) (region : Kernel.region) node =
   let n = Option.value (List.assoc_opt piece.anchor v.numbers) ~default:0 in
   match node with
   | Farkas w -> close "farkas" 6 [by_farkas v n w] region
-  | Definite negative -> close "definite" 6 [by_definite v n negative] region
+  | Definite diagonal -> close "definite" 6 [by_definite v n diagonal] region
   | Ldl -> whole_of v "ldl" region
   | Tail -> whole_of v "tail" region
   | Root r ->

@@ -314,7 +314,7 @@ let constant_cover q eliminate =
   let elimination, context = condense q eliminate in
   let tree, supports =
     elaborate q ~leaf:(fun _ -> Elaborate.build_leaf context) ~left_open:Kernel.Undecided
-      ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
+      ~nothing:(fun _ -> Kernel.Leaf (Kernel.Farkas [])) in
   let cover = Kernel.Eliminated (elimination, tree) in
   limit_yields q cover supports;
   cover, supports
@@ -449,7 +449,7 @@ let of_zero_constant q zero unknown =
     | node -> Elaborate.build_leaf context region node in
   let tree, beside =
     elaborate_zero q zero unknown ~leaf ~left_open:Kernel.Undecided
-      ~nothing:(fun region -> Elaborate.build_leaf context region (Farkas [])) in
+      ~nothing:(fun _ -> Kernel.Leaf (Kernel.Farkas [])) in
   zero_cover q (Eliminated (elimination, tree)) beside
 
 let of_zero_varying q zero unknown =
@@ -661,7 +661,7 @@ let complete (problem : Scaling.t) (certificate : Certificate.t) =
    without particles of zero reaction: a factor at both ends of the window. *)
 let rates (problem : Scaling.t) (certificate : Certificate.t) =
   let is_definite (p : Certificate.piece) = match p.tree with
-    | [Definite false] | [Ldl] -> true
+    | [Definite Identity] | [Ldl] -> true
     | _ -> false in
   match problem.question with
   | SystemProblem (_, Mu) when certificate.pieces <> [] && Q.sign (fst certificate.window) > 0

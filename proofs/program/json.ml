@@ -241,9 +241,18 @@ let integer item =
   let q = rational item in
   if Z.equal (Q.den q) Z.one then Q.num q else malformed "an integer was expected"
 
+let spelt_as_integer s =
+  s <> "-0" && String.for_all (fun c -> c = '-' || (c >= '0' && c <= '9')) s
+
+(* A weight: a JSON number spelt as an integer, of 64 bits. *)
+let weight = function
+  | Number s when String.length s <= 20 && spelt_as_integer s && Z.fits_int64 (Z.of_string s) ->
+    Z.of_string s
+  | _ -> malformed "an integer of 64 bits was expected"
+
 (* An index or a size: a JSON number spelt as an integer. *)
 let counter = function
-  | Number s when s <> "-0" && String.for_all (fun c -> c = '-' || (c >= '0' && c <= '9')) s ->
+  | Number s when spelt_as_integer s ->
     (match int_of_string_opt s with
      | Some i when abs i < Natural.limit -> i
      | _ -> malformed "%s is too large" s)

@@ -42,11 +42,6 @@ let pred n =
 
 
 
-(** val eqb : bool -> bool -> bool **)
-
-let eqb b1 b2 =
-  if b1 then b2 else if b2 then false else true
-
 type reflect =
 | ReflectT
 | ReflectF
@@ -771,35 +766,42 @@ type factor = { weights : Big_int_Z.big_int list; factor_rows : matrix }
 let active p r =
   filter (fun i -> negb (is_resting (state_of r i))) (indices p)
 
-(** val symmetric_part : enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int **)
+(** val weighted_entry :
+    enclosed -> Big_int_Z.big_int list -> point -> int -> int -> Big_int_Z.big_int **)
 
-let symmetric_part p negative0 e i j =
+let weighted_entry p d e i j =
   Big_int_Z.sub_big_int
-    (Big_int_Z.sub_big_int
-      (if negative0
-       then Big_int_Z.sub_big_int (Big_int_Z.minus_big_int (center p e i j)) (center p e j i)
-       else Big_int_Z.add_big_int (center p e i j) (center p e j i)) (radius p e i j))
-    (radius p e j i)
+    (Big_int_Z.mult_big_int (nth Big_int_Z.unit_big_int d i) (center p e i j))
+    (Big_int_Z.mult_big_int (Big_int_Z.abs_big_int (nth Big_int_Z.unit_big_int d i))
+      (radius p e i j))
 
-(** val definite_end : enclosed -> bool -> bool -> point -> region -> factor -> bool **)
+(** val symmetric_part :
+    enclosed -> Big_int_Z.big_int list -> point -> int -> int -> Big_int_Z.big_int **)
 
-let definite_end p negative0 strict e r f =
+let symmetric_part p d e i j =
+  Big_int_Z.add_big_int (weighted_entry p d e i j) (weighted_entry p d e j i)
+
+(** val definite_end :
+    enclosed -> Big_int_Z.big_int list -> bool -> point -> region -> factor -> bool **)
+
+let definite_end p d strict e r f =
   (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
     ((&&) (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic size (active p r)))
-      (covered (symmetric_part p negative0 e) (weighted_dot f.weights) strict
+      (covered (symmetric_part p d e) (weighted_dot f.weights) strict
         (zip (active p r) f.factor_rows)))
 
-(** val definite : enclosed -> bool -> region -> factor -> factor -> bool **)
+(** val definite : enclosed -> Big_int_Z.big_int list -> region -> factor -> factor -> bool **)
 
-let definite p negative0 r low high =
-  (&&) (definite_end p negative0 true r.lower r low)
-    (definite_end p negative0 (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) r.upper r high)
+let definite p d r low high =
+  (&&) (definite_end p d true r.lower r low)
+    (definite_end p d (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) r.upper r high)
 
 (** val box_definite :
-    enclosed -> enclosed -> region -> bool -> (factor * factor) -> (factor * factor) -> bool **)
+    enclosed -> enclosed -> region -> Big_int_Z.big_int list -> (factor * factor) ->
+    (factor * factor) -> bool **)
 
-let box_definite p p' r negative0 f f' =
-  (&&) (definite p negative0 r (fst f) (snd f)) (definite p' negative0 r (fst f') (snd f'))
+let box_definite p p' r d f f' =
+  (&&) (definite p d r (fst f) (snd f)) (definite p' d r (fst f') (snd f'))
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
              width : Big_int_Z.big_int }
@@ -1215,7 +1217,7 @@ type yield = { yield_region : region; yield_from : point; yield_to : point }
 
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
-| Definite of bool * factor * factor
+| Definite of Big_int_Z.big_int list * factor * factor
 | Absent of absence
 | Root of interval * isolation * outcome
 | Claimed of interval * pinning * int
@@ -1289,7 +1291,7 @@ let undecided tr r =
 
 let check_leaf p solutions check_whole0 check_limit0 r = function
 | Farkas w -> farkas p r w
-| Definite (negative0, low, high) -> definite p negative0 r low high
+| Definite (d, low, high) -> definite p d r low high
 | Absent c -> check_absent p r c
 | Root (h, c, o) -> (&&) (reaches r h) (check_root p (extended r h) c o)
 | Claimed (h, c, n) ->
@@ -1650,8 +1652,7 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : bool;
-               low_end : whole_end; high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
@@ -1680,39 +1681,34 @@ let member_entry e i j =
   Big_int_Z.add_big_int (Big_int_Z.mult_big_int (snd e) (lookup (fst (snd i)) (fst j)))
     (Big_int_Z.mult_big_int (fst e) (lookup (snd (snd i)) (fst j)))
 
-(** val member_form :
-    bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int **)
+(** val member_form : Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int **)
 
-let member_form negative0 c e i j =
-  Big_int_Z.mult_big_int c
-    (if negative0
-     then Big_int_Z.sub_big_int (Big_int_Z.minus_big_int (member_entry e i j))
-            (member_entry e j i)
-     else Big_int_Z.add_big_int (member_entry e i j) (member_entry e j i))
+let member_form c e i j =
+  Big_int_Z.mult_big_int c (Big_int_Z.add_big_int (member_entry e i j) (member_entry e j i))
 
 (** val check_end :
-    pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region -> whole_end -> bool **)
+    pencil -> Big_int_Z.big_int list -> bool -> point -> region -> whole_end -> bool **)
 
-let check_end q weight strict negative0 e r w =
+let check_end q weight strict e r w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.end_scale)
     (match w.end_factor with
      | Dense (weights0, rows) ->
        (&&) (all (fun u -> Z.leb Big_int_Z.zero_big_int u) weights0)
          ((&&) (eq_op nat_eqType (Obj.magic size rows) (Obj.magic size (members q weight r)))
-           (covered (member_form negative0 w.end_scale e) (weighted_dot weights0) strict
+           (covered (member_form w.end_scale e) (weighted_dot weights0) strict
              (zip (members q weight r) rows)))
      | Late (m, rows) ->
        (&&) (Z.leb Big_int_Z.zero_big_int m)
          ((&&) (eq_op nat_eqType (Obj.magic size rows) (Obj.magic size (members q weight r)))
-           (covered (member_form negative0 w.end_scale e) (fun a b ->
+           (covered (member_form w.end_scale e) (fun a b ->
              Big_int_Z.mult_big_int m (late_dot a b)) strict (zip (members q weight r) rows))))
 
 (** val check_whole : pencil -> region -> whole -> bool **)
 
 let check_whole q r w =
-  (&&) (check_end q w.whole_weights true w.whole_negative r.lower r w.low_end)
-    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) w.whole_negative
-      r.upper r w.high_end)
+  (&&) (check_end q w.whole_weights true r.lower r w.low_end)
+    (check_end q w.whole_weights (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) r.upper r
+      w.high_end)
 
 type polynomial = Big_int_Z.big_int list
 
@@ -3587,7 +3583,7 @@ type local_entry = { local_a : Big_int_Z.big_int; local_b : Big_int_Z.big_int;
 
 type local_leaf =
 | LocalFarkas of Big_int_Z.big_int list
-| LocalDefinite of bool * factor * factor
+| LocalDefinite of Big_int_Z.big_int list * factor * factor
 | LocalAbsent of absence
 | LocalRoot of isolation * outcome
 
@@ -3978,7 +3974,7 @@ let local_region r =
 
 let check_local p r = function
 | LocalFarkas w -> farkas p r w
-| LocalDefinite (negative0, low, high) -> definite p negative0 r low high
+| LocalDefinite (d, low, high) -> definite p d r low high
 | LocalAbsent c -> check_absent p r c
 | LocalRoot (c, o) -> check_root p r c o
 
@@ -4508,7 +4504,7 @@ let both_halves z0 r =
 
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
-| BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxDefinite of Big_int_Z.big_int list * (factor * factor) * (factor * factor)
 | BoxRegular of regular
 | BoxWhole of whole * whole
 | BoxHalves
@@ -4518,8 +4514,7 @@ type critical_leaf =
 
 let check_parts p p' r low high = function
 | BoxFarkas v -> box_farkas (mixed low p p') (mixed high p p') r v
-| BoxDefinite (negative0, f, f') ->
-  box_definite (mixed low p p') (mixed high p p') r negative0 f f'
+| BoxDefinite (d, f, f') -> box_definite (mixed low p p') (mixed high p p') r d f f'
 | BoxRegular v -> box_regular (mixed low p p') (mixed high p p') r v
 | _ -> false
 
@@ -4542,11 +4537,10 @@ let pencil_at z0 e =
 (** val same_weights : zero_system -> whole -> whole -> bool **)
 
 let same_weights z0 a b =
-  (&&) (eqb a.whole_negative b.whole_negative)
-    (all (fun i ->
-      Big_int_Z.eq_big_int (nth Big_int_Z.unit_big_int a.whole_weights i)
-        (nth Big_int_Z.unit_big_int b.whole_weights i))
-      (iota (free_number (freed z0).without_zero) (size z0.without_zero.particles)))
+  all (fun i ->
+    Big_int_Z.eq_big_int (nth Big_int_Z.unit_big_int a.whole_weights i)
+      (nth Big_int_Z.unit_big_int b.whole_weights i))
+    (iota (free_number (freed z0).without_zero) (size z0.without_zero.particles))
 
 (** val freed_weight : zero_system -> whole -> Equality.sort -> Big_int_Z.big_int **)
 
@@ -4557,11 +4551,10 @@ let freed_weight z0 a d =
 (** val zero_weights : zero_system -> whole -> bool **)
 
 let zero_weights z0 a =
-  (&&) ((||) (nilp z0.zero_particles) (negb a.whole_negative))
-    (all (fun p ->
-      (&&) (Z.leb Big_int_Z.zero_big_int (freed_weight z0 a (Obj.magic p.first_dof)))
-        (Big_int_Z.eq_big_int (freed_weight z0 a (Obj.magic p.first_dof))
-          (freed_weight z0 a (Obj.magic p.second_dof)))) z0.zero_particles)
+  all (fun p ->
+    (&&) (Z.leb Big_int_Z.zero_big_int (freed_weight z0 a (Obj.magic p.first_dof)))
+      (Big_int_Z.eq_big_int (freed_weight z0 a (Obj.magic p.first_dof))
+        (freed_weight z0 a (Obj.magic p.second_dof)))) z0.zero_particles
 
 (** val check_whole_leaf : zero_system -> region -> point -> point -> critical_leaf -> bool **)
 

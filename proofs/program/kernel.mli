@@ -22,8 +22,6 @@ val pred : int -> int
 
 
 
-val eqb : bool -> bool -> bool
-
 type reflect =
 | ReflectT
 | ReflectF
@@ -305,14 +303,20 @@ type factor = { weights : Big_int_Z.big_int list; factor_rows : matrix }
 
 val active : enclosed -> region -> int list
 
-val symmetric_part : enclosed -> bool -> point -> int -> int -> Big_int_Z.big_int
+val weighted_entry :
+  enclosed -> Big_int_Z.big_int list -> point -> int -> int -> Big_int_Z.big_int
 
-val definite_end : enclosed -> bool -> bool -> point -> region -> factor -> bool
+val symmetric_part :
+  enclosed -> Big_int_Z.big_int list -> point -> int -> int -> Big_int_Z.big_int
 
-val definite : enclosed -> bool -> region -> factor -> factor -> bool
+val definite_end :
+  enclosed -> Big_int_Z.big_int list -> bool -> point -> region -> factor -> bool
+
+val definite : enclosed -> Big_int_Z.big_int list -> region -> factor -> factor -> bool
 
 val box_definite :
-  enclosed -> enclosed -> region -> bool -> (factor * factor) -> (factor * factor) -> bool
+  enclosed -> enclosed -> region -> Big_int_Z.big_int list -> (factor * factor) ->
+  (factor * factor) -> bool
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
              width : Big_int_Z.big_int }
@@ -476,7 +480,7 @@ type yield = { yield_region : region; yield_from : point; yield_to : point }
 
 type 'whole leaf =
 | Farkas of Big_int_Z.big_int list
-| Definite of bool * factor * factor
+| Definite of Big_int_Z.big_int list * factor * factor
 | Absent of absence
 | Root of interval * isolation * outcome
 | Claimed of interval * pinning * int
@@ -620,8 +624,7 @@ type whole_factor =
 
 type whole_end = { end_scale : Big_int_Z.big_int; end_factor : whole_factor }
 
-type whole = { whole_weights : Big_int_Z.big_int list; whole_negative : bool;
-               low_end : whole_end; high_end : whole_end }
+type whole = { whole_weights : Big_int_Z.big_int list; low_end : whole_end; high_end : whole_end }
 
 type member = int * (sparse_row * sparse_row)
 
@@ -633,10 +636,9 @@ val members : pencil -> Big_int_Z.big_int list -> region -> member list
 
 val member_entry : point -> member -> member -> Big_int_Z.big_int
 
-val member_form : bool -> Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
+val member_form : Big_int_Z.big_int -> point -> member -> member -> Big_int_Z.big_int
 
-val check_end :
-  pencil -> Big_int_Z.big_int list -> bool -> bool -> point -> region -> whole_end -> bool
+val check_end : pencil -> Big_int_Z.big_int list -> bool -> point -> region -> whole_end -> bool
 
 val check_whole : pencil -> region -> whole -> bool
 
@@ -1239,7 +1241,7 @@ type local_entry = { local_a : Big_int_Z.big_int; local_b : Big_int_Z.big_int;
 
 type local_leaf =
 | LocalFarkas of Big_int_Z.big_int list
-| LocalDefinite of bool * factor * factor
+| LocalDefinite of Big_int_Z.big_int list * factor * factor
 | LocalAbsent of absence
 | LocalRoot of isolation * outcome
 
@@ -1531,7 +1533,7 @@ val both_halves : zero_system -> region -> bool
 
 type critical_leaf =
 | BoxFarkas of Big_int_Z.big_int list
-| BoxDefinite of bool * (factor * factor) * (factor * factor)
+| BoxDefinite of Big_int_Z.big_int list * (factor * factor) * (factor * factor)
 | BoxRegular of regular
 | BoxWhole of whole * whole
 | BoxHalves
