@@ -6,11 +6,15 @@
 //! halved often. It is halved in the direction in which the witness of its middle is lost, until it
 //! is empty, or so small that it seems to hold a solution: there the search of the piece ends.
 //!
+//! Where the rows of T have weights with which its symmetric part is definite, all supports are
+//! excluded at once (`leaf::weighted`), so the box is halved and nothing is decided.
+//!
 //! Called by `mod.rs`; the rest of the search is `search::complete::tree`.
 
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::leaf::farkas::{FarkasColumns, MiddleTest};
 use crate::search::complete::leaf::regular::RegularWitness;
+use crate::search::complete::leaf::weighted::Weights;
 use crate::search::complete::pieces::expansion::ChordEnds;
 use crate::search::complete::region::{Item, SearchRegion};
 use crate::search::complete::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
@@ -22,6 +26,15 @@ use mceip_model::file::Number;
 /// Halvings in each direction that a Farkas vector may need before a variable is decided instead.
 /// It is a leaf of first order in the size of the box; decided boxes have leaves of second order.
 const MAX_CUTS_NEEDED: f64 = 3.0;
+
+/// The same of the weights of a definite leaf in a box in which nothing is decided, in both
+/// directions together: there they take the place of a tree of branches. No more than there are
+/// variables: few variables are sooner decided.
+const MAX_CUTS_OF_WEIGHTS: f64 = 12.0;
+
+/// Below this distance in both directions the weights of the middle fail for another reason than
+/// the size of the box. Both together stay below the 1 that they can bear.
+const FAR_ENOUGH: f64 = 0.25;
 
 /// Halvings of a decided box before it counts as one that cannot be emptied.
 const MAX_CUTS_DECIDED: usize = 80;
@@ -54,6 +67,22 @@ struct Slices {
     of_value: ChordEnds,
 }
 
+impl Slices {
+    /// How far the weights of the middle carry, along mu and along lambda^2: below 1 to the end of
+    /// the box. To infinity it is 1: a direction and a matrix have no common unit.
+    fn distances(&self, weights: &Weights, here: &Here<'_>) -> [f64; 2] {
+        let distance = |ends| weights.distance(&here.middle.point, ends, &here.region.states);
+        let [low, high] = self.of_friction.each_ref().map(distance);
+        let along_value = if self.of_value.is_half_line() {
+            1.0
+        } else {
+            distance(&self.of_value)
+        };
+
+        [low.max(high), along_value]
+    }
+}
+
 /// No solution: the search of a piece ends at the first box that it cannot empty.
 #[derive(Default)]
 pub(super) struct Absence {
@@ -68,7 +97,7 @@ impl Aim for Absence {
     /// A leaf `regular`, or both halves.
     fn decided(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
         let witness = if search.may_be_regular(here) {
-            RegularWitness::of(&here.middle.matrix, &here.region.states)
+            RegularWitness::of(here.middle.matrix(), &here.region.states)
         } else {
             None
         };
@@ -85,8 +114,33 @@ impl Aim for Absence {
         }
     }
 
-    fn is_worth_cutting(_search: &TreeSearch<'_, Self>, here: &Here<'_>) -> bool {
-        here.region.cuts < MAX_CUTS && cuts_needed(here) <= MAX_CUTS_NEEDED
+    fn weights(
+        _search: &TreeSearch<'_, Self>,
+        region: &SearchRegion,
+        middle: &MiddleTest,
+    ) -> Option<Weights> {
+        if region.is_decided() {
+            return None;
+        }
+
+        Weights::of(&middle.point, &region.states)
+    }
+
+    fn is_worth_cutting(search: &TreeSearch<'_, Self>, here: &Here<'_>) -> bool {
+        if here.region.cuts >= MAX_CUTS {
+            return false;
+        }
+
+        let most = if here.region.is_undecided() {
+            let variables = here.region.states.len() as f64;
+            variables.clamp(MAX_CUTS_NEEDED, MAX_CUTS_OF_WEIGHTS)
+        } else {
+            MAX_CUTS_NEEDED
+        };
+        let of_weights = search.cuts_of_weights(here);
+        let weights_are_near = of_weights.is_some_and(|cuts| cuts <= most);
+        let is_prunable = here.middle.is_prunable;
+        weights_are_near || (is_prunable && cuts_needed(here) <= MAX_CUTS_NEEDED)
     }
 
     fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
@@ -127,16 +181,32 @@ impl TreeSearch<'_, Absence> {
         }
     }
 
+    /// How often a box has to be halved, in both directions together, until the weights of its
+    /// middle hold at its corners; `None` where halving would not help: the margin at the middle is
+    /// lost to rounding.
+    fn cuts_of_weights(&self, here: &Here<'_>) -> Option<f64> {
+        let weights = here.weights.as_ref()?;
+        let distances = self.slices(here).distances(weights, here);
+        let cuts = |distance: f64| (distance / FAR_ENOUGH).log2();
+        let counted = distances.map(cuts).into_iter().filter(|&cuts| cuts > 0.0);
+        let needed: f64 = counted.sum();
+        (needed > 0.0).then_some(needed)
+    }
+
     /// Covers both halves of a box, halved in the direction in which the witness of its middle
     /// loses more of its margin.
     fn halve(&mut self, here: &Here<'_>, witness: Option<&RegularWitness>, share: f64) {
         let slices = self.slices(here);
-        let is_lost_along_friction = match witness {
-            Some(witness) => {
+        let is_lost_along_friction = match (witness, &here.weights) {
+            (Some(witness), _) => {
                 let along_value = witness.excess(std::slice::from_ref(&slices.of_value));
                 witness.excess(&slices.of_friction) > along_value
             }
-            None => is_lost_along_friction(&slices, here),
+            (None, Some(weights)) => {
+                let [along_friction, along_value] = slices.distances(weights, here);
+                along_friction > along_value
+            }
+            (None, None) => is_lost_along_friction(&slices, here),
         };
 
         let mut rest = here.region.clone();

@@ -133,6 +133,12 @@ impl SearchRegion {
         !self.states.contains(&VariableState::Undecided)
     }
 
+    /// Is nothing decided?
+    pub(crate) fn is_undecided(&self) -> bool {
+        let mut states = self.states.iter();
+        states.all(|state| *state == VariableState::Undecided)
+    }
+
     /// Does the value lie strictly inside the interval?
     pub(crate) fn has_inside(&self, value: &Rational) -> bool {
         let is_above = *value > self.lo;

@@ -114,7 +114,7 @@ impl Aim for Solutions<'_> {
             MAX_CUTS
         };
 
-        !search.is_narrow(ends) && here.region.cuts < max_cuts
+        here.middle.is_prunable && !search.is_narrow(ends) && here.region.cuts < max_cuts
     }
 
     /// Cuts out the part on which the middle's witness works, or halves.

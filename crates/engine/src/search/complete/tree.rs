@@ -19,6 +19,7 @@
 use super::gains::KeptGame;
 use super::leaf::definite;
 use super::leaf::farkas::{self, FarkasColumns, MiddleTest};
+use super::leaf::weighted::Weights;
 use super::pieces::expansion::{ChordEnds, Expansion};
 use super::pieces::skyline::dot;
 use super::pieces::view::View;
@@ -57,6 +58,8 @@ pub(crate) struct Here<'r> {
     pub(crate) corners: Rc<[ChordEnds]>,
     pub(crate) columns: FarkasColumns,
     pub(crate) middle: MiddleTest,
+    /// Weights of a definite leaf at the middle.
+    pub(crate) weights: Option<Weights>,
 }
 
 /// What a search is for.
@@ -88,6 +91,15 @@ pub(crate) trait Aim: Sized {
         corners: &[ChordEnds],
     ) -> Option<Node> {
         definite::leaf(corners, &region.states)
+    }
+
+    /// Weights with which the symmetric part is definite in the middle of a region.
+    fn weights(
+        _search: &TreeSearch<'_, Self>,
+        _region: &SearchRegion,
+        _middle: &MiddleTest,
+    ) -> Option<Weights> {
+        None
     }
 
     /// Covers a region in which every variable is decided.
@@ -143,8 +155,16 @@ impl<A: Aim> TreeSearch<'_, A> {
             return self.leaf(leaf, share);
         }
 
-        // A Farkas vector, from the game at the middle or from that of all corners.
         let middle = self.middle_test(region);
+        let weights = A::weights(self, region, &middle);
+        let weighted = weights
+            .as_ref()
+            .and_then(|found| found.leaf(&corners, &region.states));
+        if let Some(leaf) = weighted {
+            return self.leaf(leaf, share);
+        }
+
+        // A Farkas vector, from the game at the middle or from that of all corners.
         let columns = FarkasColumns::of(&corners, &region.states);
         if let Some(weights) = farkas::weights(&columns, &middle, &region.states) {
             return self.leaf(Node::Farkas(weights), share);
@@ -156,10 +176,11 @@ impl<A: Aim> TreeSearch<'_, A> {
             corners,
             columns,
             middle,
+            weights,
         };
         if region.is_decided() {
             A::decided(self, &here, share);
-        } else if here.middle.is_prunable && A::is_worth_cutting(self, &here) {
+        } else if A::is_worth_cutting(self, &here) {
             A::cut(self, &here, share);
         } else {
             self.branch(&here, share);
@@ -226,7 +247,7 @@ impl<A: Aim> TreeSearch<'_, A> {
     fn branch(&mut self, here: &Here<'_>, share: f64) {
         let x = here.middle.relaxed_solution();
         let mut violations = Vec::with_capacity(x.len());
-        for (row, x_i) in here.middle.matrix.iter().zip(&x) {
+        for (row, x_i) in here.middle.matrix().iter().zip(&x) {
             let size = row.iter().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
             let y_i = dot(row, &x) / size;
             violations.push(x_i.min(y_i));

@@ -60,8 +60,8 @@ pub(crate) fn weights(
 /// The game at one value in the middle of an interval.
 pub(crate) struct MiddleTest {
     pub(crate) value: f64,
-    /// T there.
-    pub(crate) matrix: SquareMatrix,
+    /// T there, with its radius.
+    pub(crate) point: ChordEnds,
     pub(crate) columns: FarkasColumns,
     pub(crate) game: Game,
     /// Do the weights of the game exclude solutions there by a margin?
@@ -74,19 +74,23 @@ impl MiddleTest {
         let columns = FarkasColumns::at_lower_end(&point, states);
         let game = columns.play(states);
         let is_prunable = columns.margin(&game) > WITNESS_MARGIN;
-        let [matrix, _] = point.m;
         MiddleTest {
             value: point.lo,
-            matrix,
+            point,
             columns,
             game,
             is_prunable,
         }
     }
 
+    /// T in the middle.
+    pub(crate) fn matrix(&self) -> &SquareMatrix {
+        &self.point.m[0]
+    }
+
     /// The x of the game over all positions: the closest to a solution, or zero.
     pub(crate) fn relaxed_solution(&self) -> Vec<f64> {
-        let mut x = vec![0.0; self.matrix.len()];
+        let mut x = vec![0.0; self.matrix().len()];
         for (column, share) in self.columns.list.iter().zip(&self.game.mix) {
             x[column.variable] = *share;
         }

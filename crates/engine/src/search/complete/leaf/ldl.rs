@@ -64,11 +64,12 @@ pub(crate) fn half_line_leaf(
     ends: &ChordEnds,
 ) -> Option<Node> {
     let states = &region.states;
-    if !ends.is_half_line() || !is_definite(&ends.m[0], ends.radius(0), states, 1.0) {
+    let ones = vec![1.0; states.len()];
+    if !ends.is_half_line() || !is_definite(&ends.m[0], ends.radius(0), states, &ones) {
         return None;
     }
 
-    if !is_definite(&lifted_direction(&ends.m[1]), None, states, 1.0) {
+    if !is_definite(&lifted_direction(&ends.m[1]), None, states, &ones) {
         return None;
     }
 

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `farkas` | [`farkas`] | `farkas` |
 //! | `positive_definite`, `negative_definite` | [`definite`] | `definite` |
+//! | `weighted_definite` | [`weighted`] | `definite` |
 //! | `ldl` | [`ldl`] | `ldl` |
 //! | `tail` | [`tail`] | `condensed` (`tail`) |
 //! | `root` | [`root`], and `precise` with long numbers | `root` |
@@ -33,3 +34,4 @@ pub(crate) mod regular;
 pub(super) mod root;
 pub(super) mod support;
 pub(crate) mod tail;
+pub(crate) mod weighted;

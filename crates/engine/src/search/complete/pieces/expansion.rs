@@ -86,7 +86,7 @@ pub(crate) struct ChordEnds {
 
 impl ChordEnds {
     /// Two matrices with an exact chord.
-    fn exact(lo: f64, hi: f64, m: [SquareMatrix; 2]) -> ChordEnds {
+    pub(crate) fn exact(lo: f64, hi: f64, m: [SquareMatrix; 2]) -> ChordEnds {
         ChordEnds {
             lo,
             hi,

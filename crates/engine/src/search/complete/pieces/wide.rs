@@ -115,6 +115,7 @@ impl DefiniteAnchors<'_> {
     /// Is sym(T) positive definite over each part of [begin, end]?
     fn is_definite(&self, expansion: &Expansion, begin: f64, end: f64) -> bool {
         let states = vec![VariableState::Undecided; expansion.order()];
+        let ones = vec![1.0; states.len()];
         let lowest = begin + self.lowest_frequency;
         let ratio = (end + self.lowest_frequency) / lowest;
         let cut = |part: usize| {
@@ -125,7 +126,7 @@ impl DefiniteAnchors<'_> {
         (0..PARTS).all(|part| {
             let lo = cut(part).max(0.0);
             let ends = expansion.ends(lo, cut(part + 1));
-            holds_at_both_ends(&ends, &states, 1.0)
+            holds_at_both_ends(&ends, &states, &ones)
         })
     }
 }
