@@ -338,6 +338,10 @@ pub(crate) const STABLE_MARGINS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// onto definite ones. Unit: of a diagonal of 1. Reason: the checker decides on what is written.
 pub(crate) const LEAST_PIVOT: f64 = 1e-8;
 
+/// Components of a guess at a solution below this are not in its support. Unit: the largest one.
+/// Basis: a guess is a start for Newton's method, and a kink is crossed where the support is wrong.
+pub(crate) const GUESS_SUPPORT: f64 = 1e-3;
+
 /// Newton's decrement at which a centre of the barrier of weights is reached. Unit: that of the
 /// barrier, a sum of logarithms. Basis: below 1/4 the method converges quadratically.
 pub(crate) const NEWTON_DECREMENT: f64 = 1e-2;

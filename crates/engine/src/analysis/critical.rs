@@ -11,8 +11,8 @@
 //! [`Critical`], and the proofs named `critical` (the solution) and `absence` (the bound).
 
 use super::absence::{
-    AbsenceBound, Blocked, Cause, CoverOutcome, HalfLineFamily, LastFamily, PrecisePlace, Quadrant,
-    unit_of_lambda2,
+    AbsenceBound, Blocked, Cause, CoverOutcome, Depth, HalfLineFamily, LastFamily, PrecisePlace,
+    Quadrant, unit_of_lambda2,
 };
 use super::conditions::Necessary;
 use super::divergence::Divergence;
@@ -582,16 +582,15 @@ impl CriticalSearch<'_> {
                 return Ok(());
             };
 
-            let stage = "critical mu: looking for smaller solutions";
-            let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
-            let quadrant = self.quadrant.heard_by(&relay);
-            let bound = AbsenceBound {
-                from: &Rational::zero(),
-                below: &below,
-                at_most: &bounds.at_most(&below),
-                places: &bounds.places,
-            };
-            let obstacles = quadrant.obstacles(&bound, &mut bounds.last)?;
+            let guesses = self.obstacles(&below, bounds, Depth::ToBranches)?;
+            if guesses.is_empty() || self.model.stopped() {
+                return Ok(());
+            }
+            if self.has_smaller(&guesses, bounds)? {
+                continue;
+            }
+
+            let obstacles = self.obstacles(&below, bounds, Depth::Whole)?;
             let is_over = obstacles.is_empty() || self.model.stopped();
             if is_over || !matches!(self.learn_from(&obstacles, bounds)?, Next::Again) {
                 return Ok(());
@@ -599,6 +598,25 @@ impl CriticalSearch<'_> {
         }
 
         Ok(())
+    }
+
+    /// What stands in the way of absence below a bound.
+    fn obstacles(
+        &self,
+        below: &Rational,
+        bounds: &mut CriticalBounds,
+        depth: Depth,
+    ) -> Result<Vec<Blocked>, AnalysisError> {
+        let stage = "critical mu: looking for smaller solutions";
+        let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
+        let quadrant = self.quadrant.heard_by(&relay);
+        let bound = AbsenceBound {
+            from: &Rational::zero(),
+            below,
+            at_most: &bounds.at_most(below),
+            places: &bounds.places,
+        };
+        Ok(quadrant.obstacles(&bound, &mut bounds.last, depth)?)
     }
 
     /// Proves absence up to the known solution but for a relative gap; false where that fails.
@@ -682,13 +700,13 @@ impl CriticalSearch<'_> {
         }
     }
 
-    /// What boxes that could not be emptied tell: a smaller solution, or where condensation has to
-    /// be more precise.
-    fn learn_from(
+    /// Follows the solutions next to these boxes to their minima. Is one smaller than the known
+    /// solution, and certified? Then it is known afterwards.
+    fn has_smaller(
         &self,
         obstacles: &[Blocked],
         bounds: &mut CriticalBounds,
-    ) -> Result<Next, AnalysisError> {
+    ) -> Result<bool, AnalysisError> {
         for blocked in obstacles {
             let [lambda2, mu] = blocked.middle;
             let minimum = self.branches.minimum_below(lambda2, mu, &blocked.x);
@@ -699,8 +717,22 @@ impl CriticalSearch<'_> {
                     lambda2: minimum.point.t,
                     near: FIRST_NEAR,
                 });
-                return Ok(Next::Again);
+                return Ok(true);
             }
+        }
+
+        Ok(false)
+    }
+
+    /// What boxes that could not be emptied tell: a smaller solution, or where condensation has to
+    /// be more precise.
+    fn learn_from(
+        &self,
+        obstacles: &[Blocked],
+        bounds: &mut CriticalBounds,
+    ) -> Result<Next, AnalysisError> {
+        if self.has_smaller(obstacles, bounds)? {
+            return Ok(Next::Again);
         }
 
         let mut next = Next::Again;

@@ -18,7 +18,7 @@ use crate::search::complete::leaf::weighted::Weights;
 use crate::search::complete::pieces::expansion::ChordEnds;
 use crate::search::complete::region::{Item, SearchRegion};
 use crate::search::complete::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
-use crate::tolerance::THIN_MARGIN;
+use crate::tolerance::{GUESS_SUPPORT, THIN_MARGIN};
 use mceip_check::certificate::Node;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::Number;
@@ -35,6 +35,9 @@ const MAX_CUTS_OF_WEIGHTS: f64 = 12.0;
 /// Below this distance in both directions the weights of the middle fail for another reason than
 /// the size of the box. Both together stay below the 1 that they can bear.
 const FAR_ENOUGH: f64 = 0.25;
+
+/// Bisections of mu for a guess at a solution.
+const GUESS_STEPS: usize = 16;
 
 /// Halvings of a decided box before it counts as one that cannot be emptied.
 const MAX_CUTS_DECIDED: usize = 80;
@@ -87,6 +90,8 @@ impl Slices {
 #[derive(Default)]
 pub(super) struct Absence {
     pub(super) blocked: Option<Blocked>,
+    /// Does it end at a box that would have to be branched, with a guess at a solution?
+    pub(super) is_for_guesses: bool,
 }
 
 impl Aim for Absence {
@@ -143,6 +148,13 @@ impl Aim for Absence {
         weights_are_near || (is_prunable && cuts_needed(here) <= MAX_CUTS_NEEDED)
     }
 
+    fn ends_at(search: &mut TreeSearch<'_, Self>, here: &Here<'_>) -> bool {
+        if search.aim.is_for_guesses {
+            search.aim.blocked = Some(search.guess(here));
+        }
+        search.aim.is_for_guesses
+    }
+
     fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
         search.halve(here, None, share);
     }
@@ -160,6 +172,39 @@ impl TreeSearch<'_, Absence> {
             middle: [middle.value, region.middle_friction()],
             x: middle.relaxed_solution(),
         });
+    }
+
+    /// A guess at a solution with lambda^2 in the middle of a box: mu is where weights cease to
+    /// exist there, by bisection from 0, and x what excludes them.
+    fn guess(&self, here: &Here<'_>) -> Blocked {
+        let value = here.middle.value;
+        let parts = self.ends(value, value);
+        let mut mu = here.region.middle_friction();
+        let mut x = here.middle.relaxed_solution();
+        let mut below = 0.0;
+        for _ in 0..GUESS_STEPS {
+            let tried = 0.5 * (below + mu);
+            let point = ChordEnds::at_friction([&parts[0], &parts[1]], tried);
+            match Weights::or_vector(&point, &here.region.states) {
+                Ok(()) => below = tried,
+                Err(vector) => {
+                    mu = tried;
+                    x = vector.unwrap_or(x);
+                }
+            }
+        }
+
+        let largest = x.iter().fold(0.0f64, |most, v| most.max(*v));
+        for component in &mut x {
+            if *component < GUESS_SUPPORT * largest {
+                *component = 0.0;
+            }
+        }
+        Blocked {
+            cause: Cause::Solution,
+            middle: [value, mu],
+            x,
+        }
     }
 
     /// May a leaf `regular` stand over this interval?

@@ -116,6 +116,15 @@ impl LastFamily {
     }
 }
 
+/// How far a search goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// Each piece to the first box that would have to be branched, with a guess at a solution.
+    ToBranches,
+    /// Until every box is empty, or one cannot be emptied.
+    Whole,
+}
+
 /// What is to be proved.
 #[derive(Clone, Copy)]
 pub(super) struct AbsenceBound<'a> {
@@ -160,8 +169,9 @@ impl<'a> Quadrant<'a> {
         &self,
         bound: &AbsenceBound<'_>,
         last: &mut LastFamily,
+        depth: Depth,
     ) -> Result<Vec<Blocked>, CompleteError> {
-        let proposed = self.proposed(self.family(bound, last)?, bound);
+        let proposed = self.proposed(self.family(bound, last)?, bound, depth);
         Ok(proposed.err().unwrap_or_default())
     }
 
@@ -185,7 +195,7 @@ impl<'a> Quadrant<'a> {
     ) -> Result<CoverOutcome, CompleteError> {
         let family = self.family(bound, last)?;
         for _ in 0..=CAUTIOUS_ROUNDS {
-            let certificate = match self.proposed(family, bound) {
+            let certificate = match self.proposed(family, bound, Depth::Whole) {
                 Ok(certificate) => certificate,
                 Err(blocked) => return Ok(CoverOutcome::Blocked(blocked)),
             };
@@ -213,10 +223,11 @@ impl<'a> Quadrant<'a> {
         &self,
         family: &HalfLineFamily,
         bound: &AbsenceBound<'_>,
+        depth: Depth,
     ) -> Result<CriticalCertificate, Vec<Blocked>> {
         let shares = Shares::new(self.watch);
         let share = 1.0 / family.pieces.len() as f64;
-        let searched = |piece| self.piece(family, piece, bound, &shares, share);
+        let searched = |piece| self.piece(family, piece, bound, depth, &shares, share);
         let searched: Vec<Result<Piece, Blocked>> = in_threads(self.threads, || {
             family.pieces.par_iter().map(searched).collect()
         });
@@ -249,6 +260,7 @@ impl<'a> Quadrant<'a> {
         family: &HalfLineFamily,
         piece: &PieceOfHalfLine,
         bound: &AbsenceBound<'_>,
+        depth: Depth,
         shares: &Shares<'_>,
         share: f64,
     ) -> Result<Piece, Blocked> {
@@ -268,7 +280,10 @@ impl<'a> Quadrant<'a> {
             shares,
             budget: self.limits.boxes_for(family.view().order()),
             items: Vec::new(),
-            aim: Absence::default(),
+            aim: Absence {
+                is_for_guesses: depth == Depth::ToBranches,
+                ..Absence::default()
+            },
         };
 
         let region = SearchRegion {

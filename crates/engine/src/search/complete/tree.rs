@@ -111,6 +111,11 @@ pub(crate) trait Aim: Sized {
     /// Cuts an interval of a region, and covers the parts.
     fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64);
 
+    /// Ends the search at a region that is not decided, in place of a branch.
+    fn ends_at(_search: &mut TreeSearch<'_, Self>, _here: &Here<'_>) -> bool {
+        false
+    }
+
     /// Leaves a region for which no budget is left.
     fn leave(search: &mut TreeSearch<'_, Self>, region: &SearchRegion, share: f64);
 }
@@ -182,7 +187,7 @@ impl<A: Aim> TreeSearch<'_, A> {
             A::decided(self, &here, share);
         } else if A::is_worth_cutting(self, &here) {
             A::cut(self, &here, share);
-        } else {
+        } else if !A::ends_at(self, &here) {
             self.branch(&here, share);
         }
     }

@@ -53,18 +53,9 @@ impl Weights {
     /// zero, whatever the radius there; `None` where none are found.
     pub(crate) fn of(point: &ChordEnds, states: &[VariableState]) -> Option<Weights> {
         let possible = possible_support(states);
-        let mut block = DMatrix::from_fn(possible.len(), possible.len(), |p, q| {
-            point.m[0][possible[p]][possible[q]]
-        });
-        if let Some(radius) = point.radius(0) {
-            // What it takes from 2 sym(DT) if all weights are 1.
-            for (p, &i) in possible.iter().enumerate() {
-                let around = possible.iter().map(|&j| radius[i][j] + radius[j][i]);
-                block[(p, p)] -= 0.5 * around.sum::<f64>();
-            }
-        }
-
-        let found = barrier(&with_unit_diagonal(&block)?)?;
+        let block = least_block(point, &possible);
+        let end = barrier(&with_unit_diagonal(&block)?.1)?;
+        let found = end.has_weights.then_some(end.at.d)?;
         let mut d = vec![1.0; states.len()];
         for (p, &i) in possible.iter().enumerate() {
             d[i] = found[p];
@@ -76,6 +67,33 @@ impl Weights {
         let sum = weighted_sum(&block, &found);
         let inverse = Cholesky::new(sum)?.inverse();
         Some(Weights { d, inverse })
+    }
+
+    /// Are there weights at this value? If there are none, a vector x over the positions with
+    /// x_i (T x)_i <= 0 for every i, as far as one vector can tell: near a solution, that solution.
+    ///
+    /// On the central path P / tau is X >= 0 with (T X)_ii <= s_max for every i, and next to a
+    /// solution it tends to xx'.
+    pub(crate) fn or_vector(
+        point: &ChordEnds,
+        states: &[VariableState],
+    ) -> Result<(), Option<Vec<f64>>> {
+        let possible = possible_support(states);
+        let block = least_block(point, &possible);
+        let (scale, scaled) = with_unit_diagonal(&block).ok_or(None)?;
+        let end = barrier(&scaled).ok_or(None)?;
+        if end.has_weights {
+            return Ok(());
+        }
+
+        // The column of P with the largest entry of the diagonal, for its leading eigenvector.
+        let p = end.at.factor.inverse();
+        let column = p.column(p.diagonal().imax());
+        let mut x = vec![0.0; states.len()];
+        for (q, &i) in possible.iter().enumerate() {
+            x[i] = scale[q] * column[q];
+        }
+        Err(Some(x))
     }
 
     /// The leaf, if the weights hold at these corners; in the fewest bits with which they do.
@@ -142,19 +160,36 @@ impl Weights {
     }
 }
 
-/// C T C with a diagonal of ones, for the diagonal C > 0 that makes it so; sym(DCTC) = C sym(DT) C
-/// is definite with the same weights. `None` where an entry of the diagonal is not positive: then
-/// there are no positive weights.
-fn with_unit_diagonal(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+/// T at a point on these positions, its diagonal less what the radius takes from 2 sym(DT) if all
+/// weights are 1.
+fn least_block(point: &ChordEnds, possible: &[usize]) -> DMatrix<f64> {
+    let mut block = DMatrix::from_fn(possible.len(), possible.len(), |p, q| {
+        point.m[0][possible[p]][possible[q]]
+    });
+    if let Some(radius) = point.radius(0) {
+        for (p, &i) in possible.iter().enumerate() {
+            let around = possible.iter().map(|&j| radius[i][j] + radius[j][i]);
+            block[(p, p)] -= 0.5 * around.sum::<f64>();
+        }
+    }
+
+    block
+}
+
+/// C and C T C with a diagonal of ones, C > 0 diagonal; sym(DCTC) = C sym(DT) C is definite with
+/// the same weights. `None` where an entry of the diagonal is not positive: then there are no
+/// positive weights.
+fn with_unit_diagonal(matrix: &DMatrix<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
     let diagonal = matrix.diagonal();
     if diagonal.iter().any(|&entry| entry <= 0.0 || entry.is_nan()) {
         return None;
     }
 
     let scale = diagonal.map(|entry| 1.0 / entry.sqrt());
-    Some(DMatrix::from_fn(scale.len(), scale.len(), |i, j| {
+    let scaled = DMatrix::from_fn(scale.len(), scale.len(), |i, j| {
         scale[i] * matrix[(i, j)] * scale[j]
-    }))
+    });
+    Some((scale, scaled))
 }
 
 /// DT + T'D
@@ -229,9 +264,16 @@ fn newton(t: &DMatrix<f64>, at: &Inside, tau: f64) -> Option<(DVector<f64>, f64)
     Some((step, decrement))
 }
 
-/// Weights with the sum n for a matrix with a diagonal of ones, at least half as good as the best
-/// ones; `None` where there are none to speak of.
-fn barrier(t: &DMatrix<f64>) -> Option<DVector<f64>> {
+/// Where the barrier method ends.
+struct BarrierEnd {
+    at: Inside,
+    /// Is S definite there?
+    has_weights: bool,
+}
+
+/// Looks for weights with the sum n for a matrix with a diagonal of ones, at least half as good as
+/// the best ones; `None` where rounding ends the search.
+fn barrier(t: &DMatrix<f64>) -> Option<BarrierEnd> {
     let n = t.nrows();
     let start = DVector::from_element(n, 1.0);
     let lowest = -t.map(f64::abs).row_sum().max() - t.map(f64::abs).column_sum().max();
@@ -242,11 +284,9 @@ fn barrier(t: &DMatrix<f64>) -> Option<DVector<f64>> {
         let (step, decrement) = newton(t, &at, tau)?;
         if decrement < NEWTON_DECREMENT {
             let largest_possible = at.s + 2.0 * n as f64 / tau;
-            if at.s > 0.5 * largest_possible {
-                return Some(at.d);
-            }
-            if largest_possible < LEAST_PIVOT {
-                return None;
+            let has_weights = at.s > 0.5 * largest_possible;
+            if has_weights || largest_possible < LEAST_PIVOT {
+                return Some(BarrierEnd { at, has_weights });
             }
 
             tau *= STEP_OF_TAU;
@@ -256,7 +296,8 @@ fn barrier(t: &DMatrix<f64>) -> Option<DVector<f64>> {
         at = searched(t, &at, &step, decrement, tau)?;
     }
 
-    (at.s > LEAST_PIVOT).then_some(at.d)
+    let has_weights = at.s > LEAST_PIVOT;
+    Some(BarrierEnd { at, has_weights })
 }
 
 /// The point along a step, halved until it is inside and the value falls by a tenth of what it
