@@ -305,10 +305,11 @@ fn random_tree(
 fn random_leaf(rng: &mut ChaCha8Rng, rectangle: &Rectangle) -> Node {
     let weights = vec![rng.random_range(-4..=4), rng.random_range(-4..=4)];
 
-    match rng.random_range(0..4) {
+    match rng.random_range(0..5) {
         0 => Node::PositiveDefinite,
         1 => Node::NegativeDefinite,
         2 => Node::Farkas(weights),
+        3 => Node::WeightedDefinite(weights),
         _ => scaled(&rectangle.weights()),
     }
 }

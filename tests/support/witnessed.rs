@@ -33,10 +33,12 @@ pub fn case(rng: &mut ChaCha8Rng) -> Case {
 
     let support = draw_support(rng, order);
     let region = Region::draw(rng, &lo, hi.as_ref());
-    let leaf = match rng.random_range(0..10) {
-        0 => Node::Farkas((0..order).map(|_| rng.random_range(-3..=3)).collect()),
+    let weights = (0..order).map(|_| rng.random_range(-3..=3)).collect();
+    let leaf = match rng.random_range(0..11) {
+        0 => Node::Farkas(weights),
         1 => Node::PositiveDefinite,
         2 => Node::NegativeDefinite,
+        3 => Node::WeightedDefinite(weights),
         _ => Node::Root(Box::new(root(rng, &entries, &support, &region))),
     };
 
