@@ -212,6 +212,10 @@ const MAX_STARTS: usize = 16;
 /// worth.
 const FINE_GAP_FREE: usize = 100;
 
+/// Boxes that may hold a smaller solution are followed so many at a time, those of smallest mu
+/// first, until one is certified.
+const FOLLOWED_TOGETHER: usize = 3;
+
 /// Covers tried for one gap.
 const ROUNDS_PER_GAP: usize = 12;
 
@@ -429,13 +433,7 @@ impl CriticalSearch<'_> {
             );
         }
 
-        minima.sort_by(|p, q| p.point.mu.total_cmp(&q.point.mu));
-        for minimum in &minima {
-            if self.certify(minimum, bounds)? {
-                break;
-            }
-        }
-
+        self.certify_smallest(minima, bounds)?;
         if let Some(solution) = &bounds.solution {
             let lambda2 = to_f64(&solution.lambda2.mid());
             bounds.places.push(PrecisePlace {
@@ -445,6 +443,24 @@ impl CriticalSearch<'_> {
         }
 
         Ok(())
+    }
+
+    /// Certifies the smallest of these solutions for which that succeeds.
+    fn certify_smallest(
+        &self,
+        mut minima: Vec<Minimum>,
+        bounds: &mut CriticalBounds,
+    ) -> Result<Option<Minimum>, AnalysisError> {
+        minima.sort_by(|p, q| p.point.mu.total_cmp(&q.point.mu));
+        // Several guesses lead to one minimum.
+        minima.dedup_by(|q, p| q.point.mu < p.point.mu * (1.0 + SMALLER_FRICTION));
+        for minimum in minima {
+            if self.certify(&minimum, bounds)? {
+                return Ok(Some(minimum));
+            }
+        }
+
+        Ok(None)
     }
 
     /// Certifies a solution in doubles, if its mu is smaller than that of the known one; is it
@@ -707,12 +723,16 @@ impl CriticalSearch<'_> {
         obstacles: &[Blocked],
         bounds: &mut CriticalBounds,
     ) -> Result<bool, AnalysisError> {
-        for blocked in obstacles {
-            let [lambda2, mu] = blocked.middle;
-            let minimum = self.branches.minimum_below(lambda2, mu, &blocked.x);
-            if let Some(minimum) = minimum
-                && self.certify(&minimum, bounds)?
-            {
+        let mut by_friction: Vec<&Blocked> = obstacles.iter().collect();
+        by_friction.sort_by(|p, q| p.middle[1].total_cmp(&q.middle[1]));
+        for some in by_friction.chunks(FOLLOWED_TOGETHER) {
+            let mut minima = Vec::new();
+            for blocked in some {
+                let [lambda2, mu] = blocked.middle;
+                minima.extend(self.branches.minimum_below(lambda2, mu, &blocked.x));
+            }
+
+            if let Some(minimum) = self.certify_smallest(minima, bounds)? {
                 bounds.places.push(PrecisePlace {
                     lambda2: minimum.point.t,
                     near: FIRST_NEAR,
