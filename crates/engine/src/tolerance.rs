@@ -338,6 +338,10 @@ pub(crate) const STABLE_MARGINS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// onto definite ones. Unit: of a diagonal of 1. Reason: the checker decides on what is written.
 pub(crate) const LEAST_PIVOT: f64 = 1e-8;
 
+/// How near to a value the centre of its long anchor has to be. Unit: the value, at least the scale
+/// of values. Basis: 2^-50; the coefficients of W have 50 bits less from power to power.
+pub(crate) const NEAR_ANCHOR: f64 = 9e-16;
+
 /// Components of a guess at a solution below this are not in its support. Unit: the largest one.
 /// Basis: a guess is a start for Newton's method, and a kink is crossed where the support is wrong.
 pub(crate) const GUESS_SUPPORT: f64 = 1e-3;

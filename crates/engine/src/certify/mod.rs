@@ -27,7 +27,7 @@ mod support;
 pub use accepted::{Certifier, Sifted, certify, sift};
 pub use failure::{AttemptFailure, NotCertified, SupportAttempt};
 pub use lifted::{flattened, lifted};
-pub(crate) use precise::precise_null;
+pub(crate) use precise::{PreciseNull, precise_null};
 pub use proposals::{
     ENCLOSED_ORDER, EXACT_BITS, EXACT_FIRST_ORDER, EXACT_ORDER, Preference, propose,
 };

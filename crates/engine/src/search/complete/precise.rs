@@ -1,9 +1,9 @@
 //! Decided regions whose null vector is known and whose signs are beyond doubles.
 //!
 //! A local mode has components and reactions of 1e-20 of the largest. In doubles neither x > 0 nor
-//! y > 0 can be told there, and such regions stay open. The null vector is computed again in long
-//! numbers, the piece gets an anchor whose W is as long (`pieces::precise_anchor`), and the
-//! checker, whose arithmetic is exact, reads the signs off both.
+//! y > 0 can be told there, and such regions stay open. The piece gets an anchor with a long W
+//! (`pieces::precise_anchor`), the null vector of the pencil condensed with it is computed in long
+//! numbers, and the checker, whose arithmetic is exact, reads the signs off both.
 //!
 //! Input: a cover that the checker has accepted, with open leaves. Output: the cover with `root`
 //! leaves in their place, for the checker to judge. Called by `rounds` at the end of a search.
@@ -12,16 +12,18 @@ use super::given::Given;
 use super::leaf::root::UniquenessWitness;
 use super::null_vector::null_vector;
 use super::pieces::expansion::Expansion;
-use super::pieces::precise_anchor::precise_anchor;
+use super::pieces::precise_anchor::{precise_anchor, tangent};
 use super::pieces::prepared::Prepared;
 use super::pieces::view::View;
 use super::region::{SearchRegion, support};
 use crate::candidate::Candidate;
-use crate::certify::{ENCLOSED_ORDER, precise_null};
+use crate::certify::{PreciseNull, precise_null};
 use crate::magnitude::{binary_order, in_units, two_to};
-use crate::reduction::with_free_variables;
-use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome, VariableState};
-use mceip_exact::{Rational, to_f64};
+use crate::tolerance::NEAR_ANCHOR;
+use mceip_check::certificate::{
+    Anchor, Certificate, CompleteSet, Condensation, Node, Root, RootOutcome, VariableState,
+};
+use mceip_exact::{Rational, from_f64, to_f64};
 use num_traits::{Signed, Zero};
 
 /// Open regions that are looked at, at most: each costs a dense inverse.
@@ -37,6 +39,9 @@ const INTERVAL_BITS: u32 = 96;
 /// which the rounding of W hides.
 const LEAST_VALUE_BITS: u32 = 10;
 
+/// Tangents at most, each at the value of the null vector of the one before.
+const TANGENTS: usize = 8;
+
 /// An open region with every variable decided, by its place in the cover.
 struct OpenLeaf {
     piece: usize,
@@ -44,10 +49,12 @@ struct OpenLeaf {
     region: SearchRegion,
 }
 
-/// A root for the node of a piece.
-struct PlacedRoot {
-    node: usize,
-    root: Root,
+/// What long numbers say of the open leaves of a piece.
+struct LongPiece {
+    /// The roots, each with its node.
+    roots: Vec<(usize, Root)>,
+    /// An anchor about their values, where there are free variables.
+    anchor: Option<Anchor>,
 }
 
 /// A component of a vector by its variable.
@@ -68,21 +75,26 @@ pub(super) fn closed(
 
     let mut longer = set.clone();
     let mut is_changed = false;
-    for piece in 0..set.pieces.len() {
-        let of_piece = leaves.iter().filter(|leaf| leaf.piece == piece);
-        let roots: Vec<PlacedRoot> = of_piece
-            .filter_map(|leaf| placed_root(given, prepared, set, leaf))
-            .collect();
-        let Some(first) = roots.first() else {
-            continue;
+    for (number, piece) in set.pieces.iter().enumerate() {
+        let of_piece = leaves.iter().filter(|leaf| leaf.piece == number);
+        let expansion = prepared.view.expansion(piece.anchor);
+        let search = LongSearch {
+            given,
+            view: &prepared.view,
+            expansion,
+            condensation: set.condensation.as_ref(),
         };
-
-        if !lengthen(given, &mut longer, piece, &middle(&first.root)) {
+        let long = search.piece(of_piece);
+        if long.roots.is_empty() {
             continue;
         }
 
-        for PlacedRoot { node, root } in roots {
-            longer.pieces[piece].tree[node] = Node::Root(Box::new(root));
+        if let (Some(condensation), Some(anchor)) = (&mut longer.condensation, long.anchor) {
+            condensation.anchors.push(anchor);
+            longer.pieces[number].anchor = Some(condensation.anchors.len() - 1);
+        }
+        for (node, root) in long.roots {
+            longer.pieces[number].tree[node] = Node::Root(Box::new(root));
         }
 
         is_changed = true;
@@ -92,43 +104,6 @@ pub(super) fn closed(
         complete_set: Some(longer),
         ..certificate.clone()
     })
-}
-
-fn placed_root(
-    given: &Given<'_>,
-    prepared: &Prepared,
-    set: &CompleteSet,
-    leaf: &OpenLeaf,
-) -> Option<PlacedRoot> {
-    let anchor = set.pieces[leaf.piece].anchor;
-    let expansion = prepared.view.expansion(anchor);
-    let root = root(given, &prepared.view, expansion, &leaf.region)?;
-    Some(PlacedRoot {
-        node: leaf.node,
-        root,
-    })
-}
-
-fn middle(root: &Root) -> Rational {
-    let [lo, hi] = &root.interval;
-    let two = Rational::from_integer(2.into());
-    (&lo.0 + &hi.0) / two
-}
-
-/// Gives a piece an anchor about the value with a long W, where there are free variables. Returns
-/// false where that fails.
-fn lengthen(given: &Given<'_>, set: &mut CompleteSet, piece: usize, value: &Rational) -> bool {
-    let Some(condensation) = set.condensation.as_mut() else {
-        return true;
-    };
-
-    let Some(anchor) = precise_anchor(given.pencil, condensation, value) else {
-        return false;
-    };
-
-    condensation.anchors.push(anchor);
-    set.pieces[piece].anchor = Some(condensation.anchors.len() - 1);
-    true
 }
 
 /// The open leaves in which every variable is decided, the support is not empty and the interval is
@@ -172,44 +147,105 @@ fn may_have_root(region: &SearchRegion) -> bool {
     region.states.contains(&VariableState::InSupport)
 }
 
-/// The only null vector of a decided region, and what its signs say.
-fn root(
-    given: &Given<'_>,
-    view: &View,
-    expansion: &Expansion,
-    region: &SearchRegion,
-) -> Option<Root> {
-    let region_hi = region.hi.as_ref()?;
-    let lo = to_f64(&region.lo);
-    let hi = to_f64(region_hi);
-    let null = null_vector(expansion, &region.states, lo, hi)?;
-    let unique = UniquenessWitness::of(&null, &expansion.ends(lo, hi))?;
+/// What the open leaves of one piece are looked at with.
+struct LongSearch<'a> {
+    given: &'a Given<'a>,
+    view: &'a View,
+    expansion: &'a Expansion,
+    condensation: Option<&'a Condensation>,
+}
 
-    let support = view.variables(&support(&region.states));
-    if given.pencil.free().len() + support.len() > ENCLOSED_ORDER {
-        return None;
+impl LongSearch<'_> {
+    /// The leaves that have a root, with an anchor about the value of the first of them.
+    fn piece<'l>(&self, leaves: impl Iterator<Item = &'l OpenLeaf>) -> LongPiece {
+        let mut long = LongPiece {
+            roots: Vec::new(),
+            anchor: None,
+        };
+        for leaf in leaves {
+            let root = self.root(&leaf.region, &mut long.anchor);
+            long.roots.extend(root.map(|root| (leaf.node, root)));
+        }
+
+        long
     }
 
-    let candidate = Candidate {
-        value: null.value,
-        x: with_free_variables(given.pencil, null.value, &null.spread(view.order())),
-    };
-    let precise = precise_null(given.pencil, &support, &candidate, VECTOR_BITS)?;
+    /// The only null vector of a decided region, and what its signs say.
+    fn root(&self, region: &SearchRegion, anchor: &mut Option<Anchor>) -> Option<Root> {
+        let view = self.view;
+        let region_hi = region.hi.as_ref()?;
+        let lo = to_f64(&region.lo);
+        let hi = to_f64(region_hi);
+        let null = null_vector(self.expansion, &region.states, lo, hi)?;
+        let unique = UniquenessWitness::of(&null, &self.expansion.ends(lo, hi))?;
 
-    let half = half_width(&precise.value, view.scale)?;
-    let begin = &precise.value - &half;
-    let end = &precise.value + &half;
-    let is_inside = begin >= region.lo && end <= *region_hi && begin >= *given.window().min();
-    if !is_inside {
-        return None;
+        let moving = support(&region.states);
+        let candidate = Candidate {
+            value: null.value,
+            x: null.spread(view.order()),
+        };
+        let precise = self.precise_null(candidate, &moving, anchor)?;
+
+        let half = half_width(&precise.value, view.scale)?;
+        let begin = &precise.value - &half;
+        let end = &precise.value + &half;
+        let is_inside =
+            begin >= region.lo && end <= *region_hi && begin >= *self.given.window().min();
+        if !is_inside {
+            return None;
+        }
+
+        let variable = |(position, v)| (view.index[position], v);
+        let x: Vec<IndexedNumber> = precise.x.into_iter().map(variable).collect();
+        let mut y: Vec<IndexedNumber> = precise.y.into_iter().map(variable).collect();
+        let vanishing = view.vanishing(&region.states);
+        y.retain(|(i, _)| !vanishing.contains(i));
+
+        let mut root = unique.witness(&view.index, [begin, end], RootOutcome::Solution);
+        write_signs(&mut root, &x, &y)?;
+        Some(root)
     }
 
-    let mut root = unique.witness(&view.index, [begin, end], RootOutcome::Solution);
-    let vanishing = view.vanishing(&region.states);
-    let mut y = precise.y;
-    y.retain(|(i, _)| !vanishing.contains(i));
-    write_signs(&mut root, &precise.x, &y)?;
-    Some(root)
+    /// The null vector on these positions next to a candidate, of the pencil on the
+    /// complementarity variables: as given where there are no free variables, else of its tangent
+    /// at the candidate, until that is at the value itself.
+    ///
+    /// The anchor that serves is kept where there is none yet.
+    fn precise_null(
+        &self,
+        mut candidate: Candidate,
+        moving: &[usize],
+        kept: &mut Option<Anchor>,
+    ) -> Option<PreciseNull> {
+        let pencil = self.given.pencil;
+        let Some(condensation) = self.condensation else {
+            return precise_null(pencil, moving, &candidate, VECTOR_BITS);
+        };
+
+        let mut anchor = kept.clone();
+        for _ in 0..TANGENTS {
+            let value = from_f64(candidate.value).ok()?;
+            let reach = self.view.scale.max(candidate.value.abs()) * NEAR_ANCHOR;
+            let is_near = |made: &Anchor| (to_f64(&made.center.0) - candidate.value).abs() <= reach;
+            if !anchor.as_ref().is_some_and(is_near) {
+                anchor = precise_anchor(pencil, condensation, &value);
+            }
+
+            let near = tangent(pencil, anchor.as_ref()?, &value)?;
+            let found = precise_null(&near, moving, &candidate, VECTOR_BITS)?;
+            if to_f64(&found.value) == candidate.value {
+                kept.get_or_insert(anchor?);
+                return Some(found);
+            }
+
+            candidate.value = to_f64(&found.value);
+            for (position, x) in &found.x {
+                candidate.x[*position] = to_f64(x);
+            }
+        }
+
+        None
+    }
 }
 
 /// Puts the long null vector x, scaled to 1 at the pivot, and what its signs and those of y say

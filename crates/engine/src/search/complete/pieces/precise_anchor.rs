@@ -3,15 +3,21 @@
 //!
 //! The equation F_c W_k = [k = 0] T_fs(c) + [k = 1] B_fs - B_ff W_(k-1) is solved with the factor
 //! of F_c in doubles. Each round adds the solution for the exact residual, and gains the digits
-//! that the factor is good for. Called by `complete::precise` for regions whose signs are beyond
-//! doubles.
+//! that the factor is good for. With d = t - c and W(d) = sum_k W_k d^k the condensed pencil is
+//!
+//! ```text
+//!     T(t) = T_ss(t) - T_sf(t) W(d),    T'(t) = B_ss - B_sf W(d) - T_sf(t) W'(d).
+//! ```
+//!
+//! Called by `complete::precise` for regions whose signs are beyond doubles.
 
 use super::anchor::{FINE, FreeElimination};
 use super::condense::bounds_of;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix, IntegerRow};
-use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
+use mceip_exact::{Integer, Rational, Sparse, common_denominator, from_f64, to_f64};
 use mceip_model::Pencil;
 use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
 
 /// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed
 /// pencil.
@@ -49,6 +55,86 @@ pub(crate) fn precise_anchor(
     }
 
     Some(anchor)
+}
+
+/// The pencil T(v) + (t - v) T'(v) on the complementarity variables in place of T(t) near a value
+/// v, in exact arithmetic with the W of an anchor.
+pub(crate) fn tangent(pencil: &Pencil, anchor: &Anchor, value: &Rational) -> Option<Pencil> {
+    let slip = pencil.slip();
+    let free = pencil.free();
+    let [a_sf, b_sf] = [pencil.a(), pencil.b()].map(|m| m.submatrix(&slip, free));
+    let at_value = a_sf.add_scaled(value, &b_sf);
+
+    // Only the rows of W that T_sf meets are needed.
+    let distance = value - &anchor.center.0;
+    let columns = at_value
+        .entries()
+        .chain(b_sf.entries())
+        .map(|entry| entry.1);
+    let mut solved: BTreeMap<usize, SolvedRow> = BTreeMap::new();
+    for column in columns {
+        let make = || SolvedRow::new(&anchor.right, column, &distance, slip.len());
+        solved.entry(column).or_insert_with(make);
+    }
+
+    let order = slip.len();
+    let times = |matrix: &Sparse, row: fn(&SolvedRow) -> &[Rational]| {
+        let mut product = vec![vec![Rational::zero(); order]; order];
+        for (i, column, entry) in matrix.entries() {
+            for (sum, w) in product[i].iter_mut().zip(row(&solved[&column])) {
+                *sum += entry * w;
+            }
+        }
+        product
+    };
+    let of_value = times(&at_value, |row| &row.w);
+    let of_slope = [
+        times(&b_sf, |row| &row.w),
+        times(&at_value, |row| &row.slope),
+    ];
+
+    let [a_ss, b_ss] = [pencil.a(), pencil.b()].map(|m| m.submatrix(&slip, &slip));
+    let (mut constant, mut slope) = (Vec::new(), Vec::new());
+    for i in 0..order {
+        for j in 0..order {
+            let of_t = b_ss.get(i, j) - &of_slope[0][i][j] - &of_slope[1][i][j];
+            // T(v) - v T'(v)
+            let at_zero = a_ss.get(i, j) + value * b_ss.get(i, j) - &of_value[i][j] - value * &of_t;
+            constant.push((i, j, at_zero));
+            slope.push((i, j, of_t));
+        }
+    }
+
+    let [a, b] = [constant, slope].map(|entries| Sparse::from_entries(order, order, entries));
+    Pencil::new(a, b, Vec::new()).ok()
+}
+
+/// A row of W(d) and of its derivative.
+struct SolvedRow {
+    w: Vec<Rational>,
+    slope: Vec<Rational>,
+}
+
+impl SolvedRow {
+    fn new(right: &[IntegerMatrix], row: usize, distance: &Rational, order: usize) -> SolvedRow {
+        let mut solved = SolvedRow {
+            w: vec![Rational::zero(); order],
+            slope: vec![Rational::zero(); order],
+        };
+
+        // Horner's rule, with the derivative beside it.
+        for matrix in right.iter().rev() {
+            let unit = Integer::one() << matrix.exponent;
+            for (j, entry) in matrix.rows[row].iter().enumerate() {
+                let slope = &solved.slope[j] * distance + &solved.w[j];
+                let coefficient = Rational::new((*entry).clone(), unit.clone());
+                solved.w[j] = &solved.w[j] * distance + coefficient;
+                solved.slope[j] = slope;
+            }
+        }
+
+        solved
+    }
 }
 
 /// An entry of a free row: position among the free or the complementarity variables, F_c or A + cB,
@@ -244,7 +330,7 @@ mod tests {
     use super::super::anchor::COARSE;
     use super::*;
     use crate::search::complete::pieces::condense::{DefinitePencils, condense};
-    use mceip_exact::{Sparse, rational, whole};
+    use mceip_exact::{rational, whole};
     use mceip_model::Window;
 
     /// Is entry (i, 0) of a matrix within 2^-bits of a number?
@@ -278,5 +364,14 @@ mod tests {
         // F W_1 = (0, 1)' - W_0 = (-4, 6)' / 11, so W_1 = (-6, 20)' / 121.
         assert!(is_near(&anchor.right[1], 0, &rational(-6, 121), 70));
         assert!(is_near(&anchor.right[1], 1, &rational(20, 121), 70));
+
+        // T = 5 + t - (1, t) F^-1 (1, t)' = 5 + t - (t^3 + 3 t^2 + 3 t + 2) / (t^2 + 5 t + 5) is
+        // 57 / 11 at t = 1, where its slope is 1 - (12 * 11 - 9 * 7) / 121 = 52 / 121.
+        let near = tangent(&pencil, &anchor, &whole(1)).unwrap();
+        let is_close = |number: Rational, expected: Rational| {
+            (number - expected).abs() < Rational::new(Integer::one(), Integer::one() << 70)
+        };
+        assert!(is_close(near.b().get(0, 0), rational(52, 121)));
+        assert!(is_close(near.a().get(0, 0), rational(57 * 11 - 52, 121)));
     }
 }
