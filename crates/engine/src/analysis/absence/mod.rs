@@ -403,6 +403,32 @@ mod tests {
         assert!(last.into_family().is_some());
     }
 
+    /// T = [[1 + t, -4 mu], [0, 1 + t]] has no solution, and no definite symmetric part from mu =
+    /// 1/2 on: weights take the place of branches.
+    #[test]
+    fn weights_take_the_place_of_branches() {
+        let k = Sparse::from_ints(&[
+            &[1, 0, 0, 0],
+            &[0, 1, -4, 0],
+            &[0, -4, 32, 0],
+            &[0, 0, 0, 32],
+        ]);
+        let slip = ContactState::Slip { sign: 1 };
+        let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
+        let mass = Some(Sparse::identity(4));
+        let system = System::new(k, mass, Some(whole(1)), particles).unwrap();
+
+        let CoverOutcome::Absent(proved) = cover(&system, 2.0, &[]) else {
+            panic!("not proved");
+        };
+        let nodes = |is_kind: fn(&Node) -> bool| {
+            let trees = proved.certificate().pieces.iter().map(|piece| &piece.tree);
+            trees.flatten().filter(|node| is_kind(node)).count()
+        };
+        assert!(nodes(|node| matches!(node, Node::WeightedDefinite(_))) > 0);
+        assert_eq!(nodes(|node| matches!(node, Node::Branch(_))), 0);
+    }
+
     /// Absence is proved a millionth below the critical mu. Returns where the search stops a
     /// millionth above it.
     #[track_caller]
