@@ -95,7 +95,7 @@ pub const LEAST_GAIN: f64 = 1e-12;
 
 /// Smallest pivot, relative to the largest entry, at which a symmetric part is offered as definite.
 /// Unit: none. Basis: the checker takes off order 2^-32 of the largest entry, 6e-8 at order 272;
-/// with 1e-6 boxes next to a fold of a large body are divided a thousand times more.
+/// with 1e-6 the L-shaped body of 2,416 degrees of freedom takes 1,540 nodes in place of 510.
 pub const DEFINITE_PIVOT: f64 = 1e-7;
 
 /// A pivot below minus this says that a symmetric matrix is not semidefinite, so that exact factors
@@ -337,6 +337,7 @@ pub(crate) const STABLE_MARGINS: [f64; 3] = [1e-10, 1e-8, 1e-6];
 /// The smallest pivot of a matrix taken for definite, and the smallest eigenvalue of projections
 /// onto definite ones. Unit: of a diagonal of 1. Reason: the checker decides on what is written.
 pub(crate) const LEAST_PIVOT: f64 = 1e-8;
+pub(crate) const LEAST_EIGENVALUE: f64 = 1e-5;
 
 /// How near to a value the centre of its long anchor has to be. Unit: the value, at least the scale
 /// of values. Basis: 2^-50; the coefficients of W have 50 bits less from power to power.
@@ -349,4 +350,3 @@ pub(crate) const GUESS_SUPPORT: f64 = 1e-3;
 /// Newton's decrement at which a centre of the barrier of weights is reached. Unit: that of the
 /// barrier, a sum of logarithms. Basis: below 1/4 the method converges quadratically.
 pub(crate) const NEWTON_DECREMENT: f64 = 1e-2;
-pub(crate) const LEAST_EIGENVALUE: f64 = 1e-5;

@@ -75,9 +75,9 @@ fn cover<'a>(
     let mut places = Vec::new();
     for _ in 0..=PRECISE_ROUNDS {
         let bound = AbsenceBound {
-            from,
-            below,
-            at_most: below,
+            from: from.clone(),
+            below: below.clone(),
+            at_most: below.clone(),
             places: &places,
         };
         match quadrant.cover(&bound, &mut LastFamily::default()).ok()? {

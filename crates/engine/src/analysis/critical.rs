@@ -305,6 +305,17 @@ impl CriticalBounds {
         largest.clone()
     }
 
+    /// Absence from mu = 0 to a bound, as it is asked for, and the condensation that may serve.
+    fn absence_below(&mut self, below: &Rational) -> (AbsenceBound<'_>, &mut LastFamily) {
+        let bound = AbsenceBound {
+            from: Rational::zero(),
+            below: below.clone(),
+            at_most: self.at_most(below),
+            places: &self.places,
+        };
+        (bound, &mut self.last)
+    }
+
     /// A short number below the known solution, by a relative gap.
     fn short_bound(&self, gap: f64) -> Option<Rational> {
         let solution = self.solution.as_ref()?;
@@ -414,10 +425,28 @@ impl CriticalSearch<'_> {
         starts: &[BranchStart],
         bounds: &mut CriticalBounds,
     ) -> Result<(), AnalysisError> {
-        let mut starts: Vec<&BranchStart> = starts.iter().collect();
+        let mut starts = starts.to_vec();
         starts.sort_by(|p, q| p.mu.total_cmp(&q.mu));
         starts.truncate(MAX_STARTS);
 
+        self.certify_smallest_below(&starts, bounds)?;
+        if let Some(solution) = &bounds.solution {
+            let lambda2 = to_f64(&solution.lambda2.mid());
+            bounds.places.push(PrecisePlace {
+                lambda2,
+                near: FIRST_NEAR,
+            });
+        }
+
+        Ok(())
+    }
+
+    /// Follows solutions to their minima, and certifies the smallest for which that succeeds.
+    fn certify_smallest_below(
+        &self,
+        starts: &[BranchStart],
+        bounds: &mut CriticalBounds,
+    ) -> Result<Option<Minimum>, AnalysisError> {
         let mut minima: Vec<Minimum> = Vec::new();
         for (k, start) in starts.iter().enumerate() {
             if self.model.stopped() {
@@ -433,26 +462,8 @@ impl CriticalSearch<'_> {
             );
         }
 
-        self.certify_smallest(minima, bounds)?;
-        if let Some(solution) = &bounds.solution {
-            let lambda2 = to_f64(&solution.lambda2.mid());
-            bounds.places.push(PrecisePlace {
-                lambda2,
-                near: FIRST_NEAR,
-            });
-        }
-
-        Ok(())
-    }
-
-    /// Certifies the smallest of these solutions for which that succeeds.
-    fn certify_smallest(
-        &self,
-        mut minima: Vec<Minimum>,
-        bounds: &mut CriticalBounds,
-    ) -> Result<Option<Minimum>, AnalysisError> {
         minima.sort_by(|p, q| p.point.mu.total_cmp(&q.point.mu));
-        // Several guesses lead to one minimum.
+        // Several starts lead to one minimum.
         minima.dedup_by(|q, p| q.point.mu < p.point.mu * (1.0 + SMALLER_FRICTION));
         for minimum in minima {
             if self.certify(&minimum, bounds)? {
@@ -626,13 +637,8 @@ impl CriticalSearch<'_> {
         let stage = "critical mu: looking for smaller solutions";
         let relay = |progress: &Progress<'_>| self.model.relay(stage, progress);
         let quadrant = self.quadrant.heard_by(&relay);
-        let bound = AbsenceBound {
-            from: &Rational::zero(),
-            below,
-            at_most: &bounds.at_most(below),
-            places: &bounds.places,
-        };
-        Ok(quadrant.obstacles(&bound, &mut bounds.last, depth)?)
+        let (bound, last) = bounds.absence_below(below);
+        Ok(quadrant.obstacles(&bound, last, depth)?)
     }
 
     /// Proves absence up to the known solution but for a relative gap; false where that fails.
@@ -675,13 +681,8 @@ impl CriticalSearch<'_> {
         let stage = format!("critical mu: proving absence below {:.7}", to_f64(below));
         let relay = |progress: &Progress<'_>| self.model.relay(&stage, progress);
         let quadrant = self.quadrant.heard_by(&relay);
-        let bound = AbsenceBound {
-            from: &Rational::zero(),
-            below,
-            at_most: &bounds.at_most(below),
-            places: &bounds.places,
-        };
-        match quadrant.cover(&bound, &mut bounds.last)? {
+        let (bound, last) = bounds.absence_below(below);
+        match quadrant.cover(&bound, last)? {
             CoverOutcome::Absent(proved) => {
                 bounds.unproved = bounds.unproved.take().filter(|tried| tried.below > *below);
                 let proof = ProofCertificate::Absence(*proved.clone());
@@ -723,16 +724,15 @@ impl CriticalSearch<'_> {
         obstacles: &[Blocked],
         bounds: &mut CriticalBounds,
     ) -> Result<bool, AnalysisError> {
-        let mut by_friction: Vec<&Blocked> = obstacles.iter().collect();
-        by_friction.sort_by(|p, q| p.middle[1].total_cmp(&q.middle[1]));
-        for some in by_friction.chunks(FOLLOWED_TOGETHER) {
-            let mut minima = Vec::new();
-            for blocked in some {
-                let [lambda2, mu] = blocked.middle;
-                minima.extend(self.branches.minimum_below(lambda2, mu, &blocked.x));
-            }
-
-            if let Some(minimum) = self.certify_smallest(minima, bounds)? {
+        let start = |blocked: &Blocked| BranchStart {
+            lambda2: blocked.middle[0],
+            mu: blocked.middle[1],
+            x: blocked.x.clone(),
+        };
+        let mut starts: Vec<BranchStart> = obstacles.iter().map(start).collect();
+        starts.sort_by(|p, q| p.mu.total_cmp(&q.mu));
+        for together in starts.chunks(FOLLOWED_TOGETHER) {
+            if let Some(minimum) = self.certify_smallest_below(together, bounds)? {
                 bounds.places.push(PrecisePlace {
                     lambda2: minimum.point.t,
                     near: FIRST_NEAR,

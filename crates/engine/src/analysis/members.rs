@@ -223,9 +223,9 @@ impl<'a> MembersSearch<'a> {
             watch: self.model.watch,
         };
         let bound = AbsenceBound {
-            from: &Rational::zero(),
-            below,
-            at_most: below,
+            from: Rational::zero(),
+            below: below.clone(),
+            at_most: below.clone(),
             places: &self.found.places,
         };
         let mut last = self.last.borrow_mut();

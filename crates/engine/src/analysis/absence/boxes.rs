@@ -87,11 +87,18 @@ impl Slices {
 }
 
 /// No solution: the search of a piece ends at the first box that it cannot empty.
-#[derive(Default)]
 pub(super) struct Absence {
     pub(super) blocked: Option<Blocked>,
-    /// Does it end at a box that would have to be branched, with a guess at a solution?
-    pub(super) is_for_guesses: bool,
+    pub(super) depth: Depth,
+}
+
+/// How far the search of a piece goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::analysis) enum Depth {
+    /// To the first box that would have to be branched, where it ends with a guess at a solution.
+    ToBranches,
+    /// Until every box is empty, or one cannot be emptied.
+    Whole,
 }
 
 impl Aim for Absence {
@@ -119,11 +126,7 @@ impl Aim for Absence {
         }
     }
 
-    fn weights(
-        _search: &TreeSearch<'_, Self>,
-        region: &SearchRegion,
-        middle: &MiddleTest,
-    ) -> Option<Weights> {
+    fn weights(region: &SearchRegion, middle: &MiddleTest) -> Option<Weights> {
         if region.is_decided() {
             return None;
         }
@@ -149,10 +152,13 @@ impl Aim for Absence {
     }
 
     fn ends_at(search: &mut TreeSearch<'_, Self>, here: &Here<'_>) -> bool {
-        if search.aim.is_for_guesses {
-            search.aim.blocked = Some(search.guess(here));
+        match search.aim.depth {
+            Depth::Whole => false,
+            Depth::ToBranches => {
+                search.aim.blocked = Some(search.guess(here));
+                true
+            }
         }
-        search.aim.is_for_guesses
     }
 
     fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64) {
@@ -185,11 +191,11 @@ impl TreeSearch<'_, Absence> {
         for _ in 0..GUESS_STEPS {
             let tried = 0.5 * (below + mu);
             let point = ChordEnds::at_friction([&parts[0], &parts[1]], tried);
-            match Weights::or_vector(&point, &here.region.states) {
-                Ok(()) => below = tried,
-                Err(vector) => {
+            match Weights::obstacle(&point, &here.region.states) {
+                None => below = tried,
+                Some(vector) => {
                     mu = tried;
-                    x = vector.unwrap_or(x);
+                    x = vector;
                 }
             }
         }

@@ -24,7 +24,7 @@ use crate::search::complete::shares::Shares;
 use crate::search::complete::splice::numbered;
 use crate::search::complete::tree::TreeSearch;
 use boxes::Absence;
-pub(super) use boxes::{Blocked, Cause};
+pub(super) use boxes::{Blocked, Cause, Depth};
 use family::PieceOfHalfLine;
 pub(super) use family::{HalfLineFamily, PrecisePlace, parts_of, unit_of_lambda2};
 use mceip_check::Proved;
@@ -116,24 +116,14 @@ impl LastFamily {
     }
 }
 
-/// How far a search goes.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Depth {
-    /// Each piece to the first box that would have to be branched, with a guess at a solution.
-    ToBranches,
-    /// Until every box is empty, or one cannot be emptied.
-    Whole,
-}
-
 /// What is to be proved.
-#[derive(Clone, Copy)]
 pub(super) struct AbsenceBound<'a> {
     /// Lower end of the interval of mu, included.
-    pub(super) from: &'a Rational,
+    pub(super) from: Rational,
     /// Upper end, included.
-    pub(super) below: &'a Rational,
+    pub(super) below: Rational,
     /// The condensation is made for mu up to here.
-    pub(super) at_most: &'a Rational,
+    pub(super) at_most: Rational,
     /// Where condensation is to be precise.
     pub(super) places: &'a [PrecisePlace],
 }
@@ -181,7 +171,7 @@ impl<'a> Quadrant<'a> {
         last: &'b mut LastFamily,
     ) -> Result<&'b mut HalfLineFamily, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
-        last.of(self.families, bound.at_most, bound.places)
+        last.of(self.families, &bound.at_most, bound.places)
     }
 
     /// Covers [0, infinity) x [from, below].
@@ -249,7 +239,7 @@ impl<'a> Quadrant<'a> {
             problem_sha256: self.problem.sha256(),
             from: bound.from.clone(),
             below: bound.below.clone(),
-            condensation: family.condensation([bound.from, bound.below]),
+            condensation: family.condensation([&bound.from, &bound.below]),
             pieces,
         })
     }
@@ -281,8 +271,8 @@ impl<'a> Quadrant<'a> {
             budget: self.limits.boxes_for(family.view().order()),
             items: Vec::new(),
             aim: Absence {
-                is_for_guesses: depth == Depth::ToBranches,
-                ..Absence::default()
+                blocked: None,
+                depth,
             },
         };
 
@@ -339,9 +329,9 @@ mod tests {
 
         let below = from_f64(below).unwrap();
         let bound = AbsenceBound {
-            from: &whole(0),
-            below: &below,
-            at_most: &below,
+            from: whole(0),
+            below: below.clone(),
+            at_most: below,
             places,
         };
         quadrant.cover(&bound, &mut LastFamily::default()).unwrap()

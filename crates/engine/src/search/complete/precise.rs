@@ -222,19 +222,21 @@ impl LongSearch<'_> {
             return precise_null(pencil, moving, &candidate, VECTOR_BITS);
         };
 
-        let mut anchor = kept.clone();
+        let mut own = None;
         for _ in 0..TANGENTS {
             let value = from_f64(candidate.value).ok()?;
             let reach = self.view.scale.max(candidate.value.abs()) * NEAR_ANCHOR;
             let is_near = |made: &Anchor| (to_f64(&made.center.0) - candidate.value).abs() <= reach;
-            if !anchor.as_ref().is_some_and(is_near) {
-                anchor = precise_anchor(pencil, condensation, &value);
+            let served = own.as_ref().or(kept.as_ref());
+            if !served.is_some_and(is_near) {
+                own = Some(precise_anchor(pencil, condensation, &value)?);
             }
 
-            let near = tangent(pencil, anchor.as_ref()?, &value)?;
+            let anchor = own.as_ref().or(kept.as_ref())?;
+            let near = tangent(pencil, anchor, &value)?;
             let found = precise_null(&near, moving, &candidate, VECTOR_BITS)?;
             if to_f64(&found.value) == candidate.value {
-                kept.get_or_insert(anchor?);
+                *kept = kept.take().or(own);
                 return Some(found);
             }
 

@@ -94,11 +94,7 @@ pub(crate) trait Aim: Sized {
     }
 
     /// Weights with which the symmetric part is definite in the middle of a region.
-    fn weights(
-        _search: &TreeSearch<'_, Self>,
-        _region: &SearchRegion,
-        _middle: &MiddleTest,
-    ) -> Option<Weights> {
+    fn weights(_region: &SearchRegion, _middle: &MiddleTest) -> Option<Weights> {
         None
     }
 
@@ -111,7 +107,8 @@ pub(crate) trait Aim: Sized {
     /// Cuts an interval of a region, and covers the parts.
     fn cut(search: &mut TreeSearch<'_, Self>, here: &Here<'_>, share: f64);
 
-    /// Ends the search at a region that is not decided, in place of a branch.
+    /// Ends the search at a region that would have to be branched, and says so; does nothing where
+    /// it goes on.
     fn ends_at(_search: &mut TreeSearch<'_, Self>, _here: &Here<'_>) -> bool {
         false
     }
@@ -161,7 +158,7 @@ impl<A: Aim> TreeSearch<'_, A> {
         }
 
         let middle = self.middle_test(region);
-        let weights = A::weights(self, region, &middle);
+        let weights = A::weights(region, &middle);
         let weighted = weights
             .as_ref()
             .and_then(|found| found.leaf(&corners, &region.states));

@@ -69,31 +69,33 @@ impl Weights {
         Some(Weights { d, inverse })
     }
 
-    /// Are there weights at this value? If there are none, a vector x over the positions with
-    /// x_i (T x)_i <= 0 for every i, as far as one vector can tell: near a solution, that solution.
+    /// A guess at a vector x over the positions that excludes weights at a value: x_i (T x)_i <= 0
+    /// for every i. `None` where there are weights, or rounding ends the search for them.
     ///
-    /// On the central path P / tau is X >= 0 with (T X)_ii <= s_max for every i, and next to a
-    /// solution it tends to xx'.
-    pub(crate) fn or_vector(
-        point: &ChordEnds,
-        states: &[VariableState],
-    ) -> Result<(), Option<Vec<f64>>> {
+    /// On the central path P / tau is a semidefinite X with (T X)_ii at most the largest s for
+    /// every i, and next to a solution it tends to xx' of that solution.
+    pub(crate) fn obstacle(point: &ChordEnds, states: &[VariableState]) -> Option<Vec<f64>> {
         let possible = possible_support(states);
         let block = least_block(point, &possible);
-        let (scale, scaled) = with_unit_diagonal(&block).ok_or(None)?;
-        let end = barrier(&scaled).ok_or(None)?;
+        let mut x = vec![0.0; states.len()];
+        let Some((scale, scaled)) = with_unit_diagonal(&block) else {
+            // T_ii <= 0: the unit vector.
+            x[possible[block.diagonal().imin()]] = 1.0;
+            return Some(x);
+        };
+
+        let end = barrier(&scaled)?;
         if end.has_weights {
-            return Ok(());
+            return None;
         }
 
         // The column of P with the largest entry of the diagonal, for its leading eigenvector.
         let p = end.at.factor.inverse();
         let column = p.column(p.diagonal().imax());
-        let mut x = vec![0.0; states.len()];
         for (q, &i) in possible.iter().enumerate() {
             x[i] = scale[q] * column[q];
         }
-        Err(Some(x))
+        Some(x)
     }
 
     /// The leaf, if the weights hold at these corners; in the fewest bits with which they do.
@@ -348,6 +350,21 @@ mod tests {
         assert!(found.d[1] > found.d[0], "{:?}", found.d);
         assert!(definite::is_definite(&matrix, None, &states, &found.d));
         assert!(!definite::is_definite(&matrix, None, &states, &[1.0; 2]));
+    }
+
+    /// At x = (1, 1) T = [[1, -1], [-1, 1]] has a solution; a little beyond, (1, 1) is near it.
+    #[test]
+    fn what_excludes_weights_is_next_to_a_solution() {
+        let obstacle = |matrix: &SquareMatrix| {
+            let point = ChordEnds::exact(1.0, 1.0, [matrix.clone(), matrix.clone()]);
+            Weights::obstacle(&point, &[UNDECIDED; 2])
+        };
+
+        let x = obstacle(&vec![vec![1.0, -1.001], vec![-1.0, 1.0]]).unwrap();
+        assert!((x[0] / x[1] - 1.0).abs() < 0.01, "{x:?}");
+        assert_eq!(obstacle(&vec![vec![1.0, -0.999], vec![-1.0, 1.0]]), None);
+        let at_first = Some(vec![1.0, 0.0]);
+        assert_eq!(obstacle(&vec![vec![-1.0, 0.0], vec![0.0, 1.0]]), at_first);
     }
 
     /// No weights where T is no P-matrix, nor for this P-matrix: a cyclic one whose rotation is too
