@@ -224,7 +224,7 @@ fn row(name: &str, problem: &Problem) {
 /// Prints the regions that stay open.
 fn print_open(completed: &Completed) {
     for open in completed.cover.open.iter().take(MOST_OPEN_SHOWN) {
-        let min = to_f64(&open.min);
+        let min = open.min.as_ref().map_or(f64::NEG_INFINITY, to_f64);
         let max = open.max.as_ref().map_or(f64::INFINITY, to_f64);
         println!(
             "    open: [{min:.17e}, {max:.17e}] moving {:?} undecided {:?}",

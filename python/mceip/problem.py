@@ -53,12 +53,13 @@ class ModelWarning(UserWarning):
 
 
 class Problem:
-    """A mixed complementarity eigenproblem: find t >= 0 and x != 0 with
+    """A mixed complementarity eigenproblem: find t and x != 0 with
 
         (A + t B) x = y,   y_f = 0,   0 <= x_s  _|_  y_s >= 0
 
     t is lambda^2, the square of a growth rate, or mu, the friction coefficient at which a
-    quasi-static motion begins. A and B come from a mechanical system or are given.
+    quasi-static motion begins, or an eigenvalue of either sign (`Problem.eicp`). A and B come from
+    a mechanical system or are given.
 
     `solve`, `complete` and `analyze` leave the interpreter to other threads, and end with
     `KeyboardInterrupt` on Ctrl-C. They take `progress`: a function of a line of text, the steps
@@ -147,20 +148,42 @@ class Problem:
             b: B, n x n.
             free: indices with y = 0 and x of any sign.
             unknown: "lambda2" or "mu": whether the solver relies on the conditions of
-                Proposition 1 or of Proposition 2.
+                Proposition 1 or of Proposition 2; or "eigenvalue": t of either sign, no free
+                variables.
         """
         order, a_entries = triplets("a", a)
         _, b_entries = triplets("b", b, order)
         return cls(NativeProblem.pencil(order, a_entries, b_entries, counts("free", free), unknown))
 
-    def in_window(self, min: Number, max: Number | None = None) -> Problem:
-        """The same problem with the values sought in [min, max], or from min on."""
+    @classmethod
+    def eicp(cls, a: Any, b: Any) -> Problem:
+        """The eigenvalue complementarity problem: all t of either sign and x != 0 with
+
+            0 <= x  _|_  (t B - A) x >= 0
+
+        ("Pareto eigenvalues", where B is the identity). Those of the other convention,
+        0 <= x  _|_  (A - t B) x >= 0, are those of -A and -B. As a pencil it is (-A, B).
+
+        Args:
+            a: A, n x n, of numpy or scipy.sparse.
+            b: B, n x n.
+        """
+        order, a_entries = triplets("a", a)
+        _, b_entries = triplets("b", b, order)
+        rows, columns, values = a_entries
+        minus_a = (rows, columns, [-value for value in values])
+        return cls(NativeProblem.pencil(order, minus_a, b_entries, [], "eigenvalue"))
+
+    def in_window(self, min: Number | None = None, max: Number | None = None) -> Problem:
+        """The same problem with the values sought in [min, max]; None is the lowest value that the
+        unknown can have (0, for eigenvalues -infinity), and infinity."""
+        lower = None if min is None else spelt(min)
         upper = None if max is None else spelt(max)
-        return Problem(self._native.in_window(spelt(min), upper))
+        return Problem(self._native.in_window(lower, upper))
 
     @property
     def unknown(self) -> str:
-        """Which number is sought: "lambda2" or "mu"."""
+        """Which number is sought: "lambda2", "mu" or "eigenvalue"."""
         return self._native.unknown()
 
     @property

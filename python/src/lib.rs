@@ -141,8 +141,10 @@ impl NativeProblem {
         let unknown = match unknown {
             "lambda2" => Unknown::Lambda2,
             "mu" => Unknown::Mu,
+            "eigenvalue" => Unknown::Eigenvalue,
             other => {
-                let message = format!("unknown: expected \"lambda2\" or \"mu\", got {other:?}");
+                let expected = "\"lambda2\", \"mu\" or \"eigenvalue\"";
+                let message = format!("unknown: expected {expected}, got {other:?}");
                 return Err(MceipError::new_err(message));
             }
         };
@@ -155,9 +157,9 @@ impl NativeProblem {
         ))
     }
 
-    /// The same problem with the values sought in [min, max], or from min on.
-    fn in_window(&self, min: &str, max: Option<&str>) -> PyResult<NativeProblem> {
-        let min = number("min", min)?;
+    /// The same problem with the values sought in [min, max]; `None` is no end.
+    fn in_window(&self, min: Option<&str>, max: Option<&str>) -> PyResult<NativeProblem> {
+        let min = min.map(|min| number("min", min)).transpose()?;
         let max = max.map(|max| number("max", max)).transpose()?;
 
         made(self.0.clone().in_window(min, max))

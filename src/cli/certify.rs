@@ -10,7 +10,9 @@ use crate::say::window_text;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{AcceptedClaim, AcceptedCover, Proved};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{Certifier, NotCertified, lifted, sift};
+use mceip_engine::certify::{
+    Certifier, NotCertified, lifted, of_both_signs, of_negative_values, sift,
+};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
 use mceip_engine::multistart::{exact_value, is_about, same_x};
 use mceip_engine::search::complete::Completed;
@@ -70,12 +72,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let job = Job::begin("certifying");
-    let certifying = Certifying {
-        problem: &problem,
-        radius: radius.as_ref(),
-        job: &job,
+    let reflected = problem.reflected();
+    let judge_half = |half: &Problem, is_here: &dyn Fn(f64) -> bool| {
+        let certifying = Certifying {
+            problem: half,
+            radius: radius.as_ref(),
+            job: &job,
+        };
+        let here = points.iter().enumerate().filter(|(_, point)| {
+            // What is no vector has no value to go by.
+            point
+                .as_ref()
+                .map_or(half == &problem, |point| is_here(point.candidate.value))
+        });
+        Ok::<_, CliError>(certifying.judge(&reduce(half)?.pencil, here))
     };
-    let mut judged = certifying.judge(&reduced.pencil, &points);
+    let mut judged = judge_half(&problem, &|value| reflected.is_none() || value >= 0.0)?;
+    let judged_negative = match &reflected {
+        Some(reflected) => Some(judge_half(reflected, &|value| value < 0.0)?),
+        None => None,
+    };
     job.end();
     if let Body::System(system) = problem.body()
         && args.lifted
@@ -83,7 +99,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         judged.lift(&problem, system);
     }
 
-    let files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
+    let mut files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
+    if let (Some(reflected), Some(mut negative)) = (reflected, judged_negative) {
+        let claims = std::mem::take(&mut negative.claims);
+        files = of_both_signs(&problem, files, Proved::claims(&reflected, claims)?)?;
+        judged.add_negative(&problem, negative)?;
+    }
     if let Some(folder) = &args.absence {
         judged.write_proofs(folder, &inputs)?;
     }
@@ -199,6 +220,20 @@ impl Judged {
     fn count(&self, verdict: ExaminationVerdict) -> usize {
         let refused = self.refused.iter();
         refused.filter(|r| r.finding.verdict == verdict).count()
+    }
+
+    /// Adds what became of the points with values below 0. What is proved of the reflected problem
+    /// is said of the given one.
+    fn add_negative(&mut self, problem: &Problem, negative: Judged) -> Result<(), CliError> {
+        for mut refused in negative.refused {
+            if let Some(proof) = refused.finding.proof {
+                let said = of_negative_values(problem, proof.into_certificate());
+                refused.finding.proof = Some(Proved::new(problem, said)?);
+            }
+            self.refused.push(refused);
+        }
+        self.refused.sort_by_key(|refused| refused.index);
+        Ok(())
     }
 
     /// Is the solution of a finding claimed, or listed by an earlier cover?
@@ -321,10 +356,14 @@ struct Certifying<'a> {
 
 impl Certifying<'_> {
     /// Certifies one after the other and says what becomes of each, until interrupted.
-    fn judge(&self, pencil: &Pencil, points: &[Result<Reported, BadPoint>]) -> Judged {
+    fn judge<'p>(
+        &self,
+        pencil: &Pencil,
+        points: impl Iterator<Item = (usize, &'p Result<Reported, BadPoint>)>,
+    ) -> Judged {
         let certifier = Certifier::new(self.problem, pencil);
         let mut judged = Judged::default();
-        for (index, point) in points.iter().enumerate() {
+        for (index, point) in points {
             if self.job.is_cancelled() {
                 self.job.note(&format!(
                     "solution {index}: interrupted before it was looked at"
@@ -332,8 +371,8 @@ impl Certifying<'_> {
                 break;
             }
 
-            let candidate = match point {
-                Ok(reported) => &reported.candidate,
+            let reported = match point {
+                Ok(reported) => reported,
                 Err(bad) => {
                     let finding = Examination::no_vector(bad);
                     let text = &finding.text;
@@ -343,7 +382,12 @@ impl Certifying<'_> {
                 }
             };
 
-            let value = candidate.value;
+            let value = reported.candidate.value;
+            let candidate = if self.problem.is_reflected() {
+                &reported.candidate.reflected()
+            } else {
+                &reported.candidate
+            };
             match certifier.certify_with_verdict(candidate) {
                 Ok((claim, _)) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
                     self.job
@@ -458,7 +502,7 @@ fn solutions_text(cover: &AcceptedCover) -> String {
 
 /// "with lambda2 in [a, b]".
 fn interval(problem: &Problem, proved: &Completed) -> String {
-    let word = problem.unknown().word();
+    let word = problem.word();
     let window = &proved.proved.certificate().window;
     format!("with {word} in {}", window_text(window))
 }

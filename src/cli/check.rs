@@ -12,7 +12,7 @@ use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
 use super::path::read_loads_of;
 use crate::say::path::LETTERS;
-use crate::say::{self, number_text, window_text};
+use crate::say::{self, number_text, window_text, windows_text};
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
     EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate, STABILITY_FORMAT,
@@ -31,7 +31,7 @@ use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALU
 use mceip_exact::{enclosing_decimals, parse, to_f64};
 use mceip_model::file::{LOADS_FORMAT, require_format};
 use mceip_model::reduction::reduce;
-use mceip_model::{LoadedBody, Problem, Unknown, Window};
+use mceip_model::{LoadedBody, Problem, RealWindow, Unknown};
 use num_traits::Zero;
 use std::path::{Path, PathBuf};
 
@@ -64,7 +64,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return Err(CliError::option("certificate", expected, "-"));
     }
 
-    let demanded = args.window.as_deref().map(parse_window).transpose()?;
     let tolerance = args.tolerance.as_deref().map(parse_tolerance).transpose()?;
 
     let problem = text("the problem", &args.file)?;
@@ -122,6 +121,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
+    let demanded = args.window.as_deref();
+    let demanded = demanded.map(|text| parse_window(text, problem.unknown()));
+    let demanded = demanded.transpose()?;
     given.judged(
         |certificate: &Certificate| match decided(|| check(&problem, certificate)) {
             Ok(accepted) => say_accepted(&problem, certificate, &accepted, demanded.as_ref()),
@@ -324,9 +326,9 @@ fn say_accepted(
     problem: &Problem,
     certificate: &Certificate,
     accepted: &Accepted,
-    demanded: Option<&Window>,
+    demanded: Option<&RealWindow>,
 ) -> Result<u8, CliError> {
-    let window = &certificate.window;
+    let windows = certificate.windows();
     let cover = accepted.cover.as_ref();
     let mut out = String::new();
     for claim in &accepted.claims {
@@ -336,15 +338,15 @@ fn say_accepted(
 
     let mut code = exit::DONE;
     match cover {
-        None => out += &claims_verdict(problem, window, accepted.claims.len()),
+        None => out += &claims_verdict(problem, &windows, accepted.claims.len()),
         Some(cover) if cover.proves_absence() => {
-            out += &absence_verdict(problem, window, cover);
+            out += &absence_verdict(problem, &windows, cover);
             if accepted.has_unique_rates {
                 out += UNIQUE;
             }
         }
         Some(cover) => {
-            out += &cover_verdict(problem, window, cover);
+            out += &cover_verdict(problem, &windows, cover);
             if !cover.open.is_empty() {
                 code = exit::UNDECIDED;
             }
@@ -352,10 +354,11 @@ fn say_accepted(
     }
 
     if let Some(demanded) = demanded
-        && !window.covers(demanded)
+        && !windows.iter().any(|window| window.covers(demanded))
     {
         code = exit::REJECTED;
-        let [expected, got] = [demanded, window].map(window_text);
+        let expected = window_text(demanded);
+        let got = windows_text(&windows);
         let why = format!("window: expected one that covers {expected}, got {got}");
         out += &format!("REJECTED: {}\n", with_short_numbers(&why));
     }
@@ -365,21 +368,21 @@ fn say_accepted(
 }
 
 /// The verdict on a certificate without a cover.
-fn claims_verdict(problem: &Problem, window: &Window, count: usize) -> String {
+fn claims_verdict(problem: &Problem, windows: &[RealWindow], count: usize) -> String {
     let digest = problem.sha256();
-    let smaller = smaller_text(window, problem.window());
-    let window = window_text(window);
+    let smaller = smaller_text(windows, problem);
+    let window = windows_text(windows);
     format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {window}{smaller}\n")
 }
 
 /// The verdict on a cover that proves that there is no solution.
-fn absence_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> String {
-    let word = problem.unknown().word();
+fn absence_verdict(problem: &Problem, windows: &[RealWindow], cover: &AcceptedCover) -> String {
+    let word = problem.word();
     let digest = problem.sha256();
     let leaves = cover.leaves;
-    let smaller = smaller_text(window, problem.window());
+    let smaller = smaller_text(windows, problem);
     let evidence = format!("{word}, problem {digest}, {leaves} leaves accepted");
-    let window = window_text(window);
+    let window = windows_text(windows);
 
     format!("ABSENT in {window}: no solution ({evidence}){smaller}\n")
 }
@@ -389,9 +392,9 @@ const UNIQUE: &str = "UNIQUE: T(mu) is a P-matrix there, so in these contact sta
     the only ones, whatever load grows\n";
 
 /// What a cover holds, and the verdict on it.
-fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> String {
-    let windowed = problem.clone().with_window(window.clone());
-    let solutions = say::cover::text(&windowed, cover);
+fn cover_verdict(problem: &Problem, windows: &[RealWindow], cover: &AcceptedCover) -> String {
+    let window = windows_text(windows);
+    let solutions = say::cover::text(problem, &window, cover);
 
     let verdict = if cover.open.is_empty() {
         "ACCEPTED"
@@ -400,14 +403,13 @@ fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> S
     };
 
     let digest = problem.sha256();
-    let smaller = smaller_text(window, problem.window());
-    let window = window_text(window);
+    let smaller = smaller_text(windows, problem);
     format!("{solutions}{verdict} for problem {digest} in {window}{smaller}\n")
 }
 
 /// A proved claim, and its place in the cover beside it.
 fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) -> String {
-    let word = problem.unknown().word();
+    let word = problem.word();
     let (lo, hi) = enclosing_decimals(&claim.value, 17);
     let slip = say::slip_text(problem, &claim.support);
     let proved = format!("{word} in [{lo}, {hi}], {slip}");
@@ -423,8 +425,9 @@ fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) ->
 }
 
 /// Says that the certificate speaks of a part of the problem's window only.
-fn smaller_text(certified: &Window, wanted: &Window) -> String {
-    if certified.covers(wanted) {
+fn smaller_text(certified: &[RealWindow], problem: &Problem) -> String {
+    let wanted = problem.real_window();
+    if certified.iter().any(|window| window.covers(&wanted)) {
         return String::new();
     }
 
@@ -435,6 +438,10 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
 /// One line per solution of a foreign report; the exit code is that of the worst.
 fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Result<u8, CliError> {
     let reduced = reduce(problem)?;
+    let reflected = match problem.reflected() {
+        Some(reflected) => Some((reduce(&reflected)?, reflected)),
+        None => None,
+    };
     let report = match ForeignReport::read(source, problem, &reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => {
@@ -452,7 +459,13 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         job.say(Progress::of("judging", k, report.solutions.len()));
         let line = match reported {
             Ok(reported) => {
-                let verdict = judge(problem, &reduced, reported, tolerance, &mut effort);
+                let (problem, reduced, reported) = match &reflected {
+                    Some((reduced, reflected)) if reported.candidate.value < 0.0 => {
+                        (reflected, reduced, &reported.reflected())
+                    }
+                    _ => (problem, &reduced, reported),
+                };
+                let verdict = judge(problem, reduced, reported, tolerance, &mut effort);
                 is_undecided |= matches!(verdict, ForeignVerdict::Undecided { .. });
                 is_rejected |= matches!(
                     verdict,

@@ -6,7 +6,7 @@ use mceip_engine::multistart::SearchError;
 use mceip_engine::run::MAX_THREADS;
 use mceip_exact::{Rational, parse};
 use mceip_model::file::{read_from, read_problem, read_problem_file, read_text};
-use mceip_model::{ModelError, Problem, Window};
+use mceip_model::{ModelError, Problem, RealWindow, Unknown, Window};
 use mceip_oracle::OracleError;
 use mceip_testkit::TestkitError;
 use num_traits::Signed as _;
@@ -253,7 +253,10 @@ pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliErro
 
     match window {
         None => Ok(problem),
-        Some(text) => Ok(problem.with_window(parse_window(text)?)),
+        Some(text) => {
+            let window = parse_window(text, problem.unknown())?;
+            Ok(problem.with_real_window(&window))
+        }
     }
 }
 
@@ -276,21 +279,33 @@ fn read_stdin(what: &'static str) -> Result<String, ModelError> {
     read.clone()
 }
 
-/// `a,b` with b empty or `inf` for infinity.
-pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
-    let expected = "a,b with 0 <= a <= b (b may be inf)";
-    window_of(text).ok_or_else(|| CliError::option("window", expected, text))
+/// `a,b` with b empty or `inf` for infinity; for eigenvalues a may be empty or `-inf`.
+pub(super) fn parse_window(text: &str, unknown: Unknown) -> Result<RealWindow, CliError> {
+    let expected = match unknown {
+        Unknown::Lambda2 | Unknown::Mu => "a,b with 0 <= a <= b (b may be inf)",
+        Unknown::Eigenvalue => "a,b with a <= b and 0 <= b (a may be -inf, b inf)",
+    };
+    window_of(text, unknown).ok_or_else(|| CliError::option("window", expected, text))
 }
 
-fn window_of(text: &str) -> Option<Window> {
+fn window_of(text: &str, unknown: Unknown) -> Option<RealWindow> {
     let (min, max) = text.split_once(',')?;
     let max = match max.trim() {
         "" | "inf" => None,
         number => Some(parse(number).ok()?),
     };
-    let min = parse(min.trim()).ok()?;
+    let min = match min.trim() {
+        "" | "-inf" => None,
+        number => Some(parse(number).ok()?),
+    };
 
-    Window::new(min, max).ok()
+    match unknown {
+        Unknown::Lambda2 | Unknown::Mu => {
+            let window = Window::new(min?, max).ok()?;
+            Some(RealWindow::from(&window))
+        }
+        Unknown::Eigenvalue => RealWindow::new(min, max).ok(),
+    }
 }
 
 /// Refuses a count that is not within `limits`.

@@ -8,6 +8,7 @@ use super::common::CliError;
 use super::output::Output;
 use crate::{Cancel, Error, Problem, SolutionSet};
 use mceip_engine::report::Claimed;
+use mceip_model::Unknown;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -50,6 +51,10 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
 impl LimitProblem {
     /// Of a problem whose window has no upper end.
     pub(super) fn of(problem: &Problem) -> Result<LimitProblem, CliError> {
+        if problem.unknown() == Unknown::Eigenvalue {
+            let expected = "the unknown lambda2 or mu, whose values have one limit at infinity";
+            return Err(CliError::option("infinity", expected, "eigenvalue"));
+        }
         let limit = problem.at_infinity()?;
         if problem.window().max().is_some() {
             let expected = "a window without upper end";

@@ -68,7 +68,7 @@ fn blame(problem: &Problem, paths: &[PathBuf], parts: &[Certificate], e: Error) 
             certificates.position(|part| part.problem_sha256 != problem.sha256())
         }
         CompleteError::OtherWindow { .. } => {
-            certificates.position(|part| part.window != *problem.window())
+            certificates.position(|part| part.window != *problem.as_model().window())
         }
         CompleteError::NoCompleteSet => certificates.position(|part| part.complete_set.is_none()),
         CompleteError::OtherPieces { part } => Some(*part),

@@ -5,7 +5,7 @@ use mceip_engine::reduction::condense;
 use mceip_exact::whole;
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
-use mceip_model::{Admissible, Body, Problem, Reduced, ReducedVariable};
+use mceip_model::{Admissible, Body, Problem, Reduced, ReducedVariable, Window};
 use std::path::PathBuf;
 
 /// Arguments of `reduce`.
@@ -31,8 +31,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         reduced.pencil
     };
 
-    let window = problem.window().clone();
-    let mut out = Problem::new(Body::Pencil(pencil), problem.unknown(), window)?;
+    let window = problem.real_window();
+    let out = Problem::new(Body::Pencil(pencil), problem.unknown(), Window::all())?;
+    let mut out = out.with_real_window(&window);
     out.name = problem.name.clone();
     out.comment = Some(comment);
 

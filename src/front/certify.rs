@@ -6,7 +6,7 @@ use super::solution::Solution;
 use mceip_check::Proved;
 use mceip_check::certificate::Certificate;
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{Certifier, certificate};
+use mceip_engine::certify::{Certifier, certificate, of_negative_values};
 use mceip_engine::lean::elaborate_file;
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
@@ -46,21 +46,28 @@ impl Problem {
     /// ```
     pub fn certify(&self, value: f64, x: &[f64]) -> Result<Certified, Error> {
         let problem = self.as_model();
-        let reduced = reduce(problem)?;
-        let certifier = Certifier::new(problem, &reduced.pencil);
-        let candidate = Candidate {
-            value,
-            x: x.to_vec(),
-        };
-        let (claim, proved) = certifier.certify_with_verdict(&candidate)?;
+        let reflected = problem.reflected().filter(|_| value < 0.0);
+        let half = reflected.as_ref().unwrap_or(problem);
+        let reduced = reduce(half)?;
+        let certifier = Certifier::new(half, &reduced.pencil);
+        let x = x.to_vec();
+        let mut candidate = Candidate { value, x };
+        if reflected.is_some() {
+            candidate = candidate.reflected();
+        }
+        let (claim, mut proved) = certifier.certify_with_verdict(&candidate)?;
 
-        let listed = Listed::of_claim(problem, &reduced, &claim);
-        let solution = Solution::new(problem.unknown(), &proved, &listed);
-        let certificate = Proved::new(problem, certificate(problem, vec![claim]))?;
+        let mut listed = Listed::of_claim(half, &reduced, &claim);
+        let mut certificate = certificate(half, vec![claim]);
+        if reflected.is_some() {
+            proved = proved.reflected();
+            listed = listed.reflected();
+            certificate = of_negative_values(problem, certificate);
+        }
 
         Ok(Certified {
-            solution,
-            certificate,
+            solution: Solution::new(problem.unknown(), &proved, &listed),
+            certificate: Proved::new(problem, certificate)?,
         })
     }
 

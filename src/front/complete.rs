@@ -6,12 +6,15 @@ use super::run::{Watched, watched_question};
 use super::solution::Solution;
 use crate::say;
 use mceip_check::certificate::Certificate;
-use mceip_check::{OpenRegion, Proved, SolutionFamily};
+use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, Proved, SolutionFamily};
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
-use mceip_engine::run::Kept;
-use mceip_engine::search::complete::{CompleteOptions, Completed, Shard, complete, merge, resume};
-use mceip_exact::Rational;
+use mceip_engine::run::{Keeper, Kept, Watch};
+use mceip_engine::search::complete::continua::joined;
+use mceip_engine::search::complete::{
+    CompleteError, CompleteOptions, Completed, Shard, complete, merge, resume,
+};
+use mceip_exact::{Interval, Rational};
 use mceip_model::reduction::reduce;
 use mceip_model::{Reduced, Window};
 use num_traits::Zero as _;
@@ -32,24 +35,63 @@ pub struct Complete<'a> {
 /// a line each.
 #[derive(Debug, Clone)]
 pub struct SolutionSet {
+    /// What is proved as a whole: of values of both signs, where both are sought.
+    proved: Proved<Certificate>,
+    cover: AcceptedCover,
+    non_negative: Half,
+    negative: Option<Half>,
+    /// Made when it is first asked for: many digits may cost more than the proof.
+    listed: OnceLock<(Vec<Solution>, Vec<Listed>)>,
+}
+
+/// What is proved of values of one sign: of the problem, or of its reflection.
+#[derive(Debug, Clone)]
+struct Half {
     problem: mceip_model::Problem,
     reduced: Reduced,
     completed: Completed,
-    /// Made when it is first asked for: many digits may cost more than the proof.
-    listed: OnceLock<(Vec<Solution>, Vec<Listed>)>,
+}
+
+impl Half {
+    fn new(problem: mceip_model::Problem, completed: Completed) -> Result<Half, Error> {
+        Ok(Half {
+            reduced: reduce(&problem)?,
+            problem,
+            completed,
+        })
+    }
+
+    fn listed(&self) -> impl Iterator<Item = (&AcceptedClaim, Listed)> {
+        Listed::of_cover(&self.problem, &self.reduced, &self.completed)
+    }
 }
 
 impl SolutionSet {
     /// The problem that was searched.
     pub fn problem(&self) -> &mceip_model::Problem {
-        &self.problem
+        &self.non_negative.problem
     }
 
-    fn new(problem: &mceip_model::Problem, completed: Completed) -> Result<SolutionSet, Error> {
+    /// What the searches for values that are not negative, and for the others, have proved.
+    fn new(
+        problem: &mceip_model::Problem,
+        completed: Completed,
+        negative: Option<Half>,
+    ) -> Result<SolutionSet, Error> {
+        let mut proved = completed.proved.clone();
+        let mut cover = completed.cover.clone();
+        if let Some(negative) = &negative {
+            let reflected = negative.completed.proved.clone().into_certificate();
+            proved = Proved::new(problem, proved.into_certificate().with_negative(reflected))?;
+            cover = proved.accepted().cover.clone().unwrap_or(cover);
+            cover.families = joined(&cover.families);
+        }
+
         Ok(SolutionSet {
-            reduced: reduce(problem)?,
-            problem: problem.clone(),
-            completed,
+            proved,
+            cover,
+            non_negative: Half::new(problem.clone(), completed)?,
+            negative,
             listed: OnceLock::new(),
         })
     }
@@ -63,40 +105,39 @@ impl SolutionSet {
     /// Continua of solutions: a support that has more than one at a value, or one at every value of
     /// an interval.
     pub fn families(&self) -> &[SolutionFamily] {
-        &self.completed.cover.families
+        &self.cover.families
     }
 
     /// What is left open: intervals of values with variables not decided.
     pub fn open(&self) -> &[OpenRegion] {
-        &self.completed.cover.open
+        &self.cover.open
     }
 
     /// Is it proved that there are no solutions but those of `solutions` and `families`?
     pub fn is_complete(&self) -> bool {
-        self.completed.is_complete()
+        self.cover.open.is_empty()
     }
 
     /// Is it proved that the window holds no solution?
     ///
     /// For lambda squared over the window [0, ∞) this excludes divergence of the form (8).
     pub fn is_empty(&self) -> bool {
-        let cover = &self.completed.cover;
-        self.is_complete() && cover.solutions.is_empty() && cover.families.is_empty()
+        self.cover.proves_absence()
     }
 
     /// The certificate, which the checker has accepted.
     pub fn certificate(&self) -> &Certificate {
-        self.completed.proved.certificate()
+        self.proved.certificate()
     }
 
     /// The certificate with the checker's verdict; its [`Proved::file`] is what is written.
     pub fn proved(&self) -> &Proved<Certificate> {
-        &self.completed.proved
+        &self.proved
     }
 
     /// The set as `mceip-solutions/1`.
     pub fn to_json(&self) -> Value {
-        let cover = &self.completed.cover;
+        let cover = &self.cover;
         let evidence = format!(
             "certificate of a complete set, {} leaves, {} open, accepted by the checker",
             cover.leaves,
@@ -105,8 +146,8 @@ impl SolutionSet {
 
         let (_, listed) = self.listed();
         solutions_json(&Report {
-            problem: &self.problem,
-            reduced: &self.reduced,
+            problem: self.problem(),
+            reduced: &self.non_negative.reduced,
             solutions: listed.clone(),
             claim: Claimed::of_cover(cover),
             evidence,
@@ -117,21 +158,29 @@ impl SolutionSet {
 
     /// What is proved of the limit at infinity, for a set of the problem [`Problem::at_infinity`].
     pub fn text_at_infinity(&self) -> String {
-        say::cover::text_at_infinity(&self.completed.cover)
+        say::cover::text_at_infinity(&self.cover)
     }
 
-    /// What the search has found, as the engine has it.
+    /// What the search for values that are not negative has found, as the engine has it.
     pub fn as_completed(&self) -> &Completed {
-        &self.completed
+        &self.non_negative.completed
     }
 
     fn listed(&self) -> &(Vec<Solution>, Vec<Listed>) {
         self.listed.get_or_init(|| {
             let mut solutions = Vec::new();
             let mut all_listed = Vec::new();
-            let found = Listed::of_cover(&self.problem, &self.reduced, &self.completed);
-            for (proved, listed) in found {
-                solutions.push(Solution::new(self.problem.unknown(), proved, &listed));
+            let negative = self.negative.iter().flat_map(Half::listed);
+            let mut negative: Vec<_> = negative.map(reflected_entry).collect();
+            negative.sort_by(|(p, _), (q, _)| by_value(p).cmp(&by_value(q)));
+            let non_negative = self.non_negative.listed();
+            let non_negative = non_negative.map(|(proved, listed)| (proved.clone(), listed));
+            // What has the value 0 is in both halves.
+            let zero = Interval::point(Rational::zero());
+            negative.retain(|(proved, _)| proved.value != zero);
+
+            for (proved, listed) in negative.into_iter().chain(non_negative) {
+                solutions.push(Solution::new(self.problem().unknown(), &proved, &listed));
                 all_listed.push(listed);
             }
 
@@ -140,9 +189,20 @@ impl SolutionSet {
     }
 }
 
+/// The order of a list.
+fn by_value(solution: &AcceptedClaim) -> (&Rational, &[usize]) {
+    (solution.value.lo(), &solution.support)
+}
+
+/// A solution of the reflected problem as one of the problem.
+fn reflected_entry((proved, listed): (&AcceptedClaim, Listed)) -> (AcceptedClaim, Listed) {
+    (proved.clone().reflected(), listed.reflected())
+}
+
 impl fmt::Display for SolutionSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&say::cover::text(&self.problem, &self.completed.cover))
+        let window = say::window_text(self.problem().real_window());
+        f.write_str(&say::cover::text(self.problem(), &window, &self.cover))
     }
 }
 
@@ -156,6 +216,18 @@ impl Problem {
     /// assert!(all.is_complete());
     /// assert_eq!(all.solutions().len(), 2);
     /// check(&problem, all.certificate())?;
+    /// # Ok::<(), mceip::Error>(())
+    /// ```
+    ///
+    /// All Pareto eigenvalues of a matrix:
+    ///
+    /// ```
+    /// use mceip::{Matrix, Problem};
+    /// let a = Matrix::from_rows(&[[8.0, -1.0], [3.0, 4.0]])?;
+    /// let all = Problem::eicp(a, Matrix::identity(2))?.complete().run()?;
+    /// assert!(all.is_complete());
+    /// let eigenvalues: Vec<f64> = all.solutions().iter().map(|s| s.value).collect();
+    /// assert_eq!(eigenvalues, [4.0, 5.0, 7.0]);
     /// # Ok::<(), mceip::Error>(())
     /// ```
     pub fn complete(&self) -> Complete<'_> {
@@ -174,7 +246,20 @@ impl Problem {
     /// searched, a part that the checker refuses.
     pub fn merge(&self, parts: &[Certificate]) -> Result<SolutionSet, Error> {
         let problem = self.as_model();
-        SolutionSet::new(problem, merge(problem, parts)?)
+        let Some(reflected) = problem.reflected() else {
+            return SolutionSet::new(problem, merge(problem, parts)?, None);
+        };
+
+        let digest = reflected.sha256();
+        let halves = parts
+            .iter()
+            .map(|part| part.clone().into_halves(digest.clone()));
+        let (parts, negative_parts): (Vec<_>, Vec<_>) = halves.unzip();
+        let negative_parts: Option<Vec<_>> = negative_parts.into_iter().collect();
+        let negative_parts = negative_parts.ok_or(CompleteError::NoCompleteSet)?;
+        let completed = merge(problem, &parts)?;
+        let negative = merge(&reflected, &negative_parts)?;
+        SolutionSet::new(problem, completed, Some(Half::new(reflected, negative)?))
     }
 
     /// The problem whose solutions are those at infinity: the reversed one, sA + B with s = 1/t, at
@@ -236,11 +321,44 @@ impl<'a> Complete<'a> {
     pub fn run(self) -> Result<SolutionSet, Error> {
         let problem = self.problem.as_model();
         let watch = self.watched.watch();
-        let completed = match self.earlier {
-            None => complete(problem, &self.options, &watch)?,
-            Some(earlier) => resume(problem, earlier, &self.options, &watch)?,
+        let Some(reflected) = problem.reflected() else {
+            let completed = self.half(problem, self.earlier, &watch)?;
+            return SolutionSet::new(problem, completed, None);
         };
 
-        SolutionSet::new(problem, completed)
+        let earlier = self.earlier.cloned();
+        let earlier = earlier.map(|earlier| earlier.into_halves(reflected.sha256()));
+        let (earlier, earlier_negative) = earlier.unzip();
+        let completed = self.half(problem, earlier.as_ref(), &watch)?;
+
+        // What is kept meanwhile is about the problem, and holds what is proved of both signs.
+        let keep = |kept: &Kept<'_>| {
+            let above = completed.proved.certificate().clone();
+            let below = Certificate::from_json(kept.certificate);
+            let both = below.map(|below| Proved::new(problem, above.with_negative(below)));
+            if let (Ok(Ok(both)), Some(keeper)) = (both, watch.keeper()) {
+                keeper.keep(kept.name, problem, &both);
+            }
+        };
+        let keeper = watch
+            .keeper()
+            .map(|keeper| Keeper::new(keeper.every, &keep));
+        let earlier_negative = earlier_negative.flatten();
+        let watch = watch.kept_by(keeper);
+        let negative = self.half(&reflected, earlier_negative.as_ref(), &watch)?;
+        SolutionSet::new(problem, completed, Some(Half::new(reflected, negative)?))
+    }
+
+    /// Searches for values of one sign.
+    fn half(
+        &self,
+        problem: &mceip_model::Problem,
+        earlier: Option<&Certificate>,
+        watch: &Watch<'_>,
+    ) -> Result<Completed, Error> {
+        Ok(match earlier {
+            None => complete(problem, &self.options, watch)?,
+            Some(earlier) => resume(problem, earlier, &self.options, watch)?,
+        })
     }
 }

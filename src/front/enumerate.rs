@@ -131,9 +131,10 @@ impl<'a> Enumerate<'a> {
         };
 
         let window = problem.window();
+        let real_window = &problem.real_window();
         let listing = if reduced.zero.is_empty() {
             let step = |done, total| step("supports", done, total);
-            Listing::Supports(enumerate_with(&reduced.pencil, window, step)?)
+            Listing::Supports(enumerate_with(&reduced.pencil, real_window, step)?)
         } else {
             let step = |done, total| step("choices of modes", done, total);
             Listing::Modes(enumerate_modes_with(&reduced, window, step)?)

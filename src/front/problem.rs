@@ -6,18 +6,18 @@ use mceip_check::certificate::Certificate;
 use mceip_check::{Accepted, Rejected};
 use mceip_exact::Rational;
 use mceip_model::file::{read_problem, read_problem_file, write_problem};
-use mceip_model::{Body, Particle, Pencil, System, Unknown, Window};
+use mceip_model::{Body, Particle, Pencil, RealWindow, System, Unknown, Window};
 use std::path::Path;
 
-/// A mixed complementarity eigenproblem: find t >= 0 and x != 0 with
+/// A mixed complementarity eigenproblem: find t and x != 0 with
 ///
 /// ```text
 /// (A + tB) x = y,   y_f = 0,   0 <= x_s _|_ y_s >= 0
 /// ```
 ///
 /// t is lambda^2, the square of a growth rate, (12)-(14), or a friction coefficient mu at which
-/// there is a divergence with lambda = 0, (21)-(23). A and B come from a mechanical system or are
-/// given.
+/// there is a divergence with lambda = 0, (21)-(23), or an eigenvalue of either sign
+/// ([`Problem::eicp`]). A and B come from a mechanical system or are given.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem(mceip_model::Problem);
 
@@ -86,7 +86,7 @@ impl Problem {
 
     /// The problem of a pencil A + tB, both n x n; `free` lists the indices f, for which x is
     /// unrestricted and y = 0. `unknown` says which conditions the solver relies on: those of
-    /// Proposition 1 or of Proposition 2.
+    /// Proposition 1 or of Proposition 2; for eigenvalues no variable is free.
     ///
     /// # Errors
     /// [`Error::Model`]: shapes, indices.
@@ -100,19 +100,57 @@ impl Problem {
         Problem::new(Body::Pencil(pencil), unknown)
     }
 
-    /// The problem over all values, [0, infinity).
-    fn new(body: Body, unknown: Unknown) -> Result<Problem, Error> {
-        let problem = mceip_model::Problem::new(body, unknown, Window::all())?;
-        Ok(Problem(problem))
-    }
-
-    /// The same problem with the values sought in [min, max], or from min on.
+    /// The eigenvalue complementarity problem of two n x n matrices: all t of either sign and x != 0
+    /// with
+    ///
+    /// ```text
+    /// 0 <= x _|_ (t B - A) x >= 0
+    /// ```
+    ///
+    /// ("Pareto eigenvalues", where B is the identity). Those of the other convention,
+    /// 0 <= x _|_ (A - t B) x >= 0, are those of -A and -B.
     ///
     /// # Errors
-    /// [`Error::Model`] for a negative min, and for a max below it.
-    pub fn in_window(self, min: Rational, max: Option<Rational>) -> Result<Problem, Error> {
-        let window = Window::new(min, max)?;
-        Ok(Problem(self.0.with_window(window)))
+    /// [`Error::Model`]: shapes.
+    ///
+    /// ```
+    /// use mceip::{Matrix, Problem};
+    /// let a = Matrix::from_rows(&[[8.0, -1.0], [3.0, 4.0]])?;
+    /// let problem = Problem::eicp(a, Matrix::identity(2))?;
+    /// assert_eq!(problem.window(), mceip::RealWindow::ALL);
+    /// # Ok::<(), mceip::Error>(())
+    /// ```
+    pub fn eicp(a: Matrix, b: Matrix) -> Result<Problem, Error> {
+        let minus_a = a.into_exact().negated();
+        let pencil = Pencil::new(minus_a, b.into_exact(), Vec::new())?;
+        Problem::new(Body::Pencil(pencil), Unknown::Eigenvalue)
+    }
+
+    /// The problem over all values that the unknown can have.
+    fn new(body: Body, unknown: Unknown) -> Result<Problem, Error> {
+        let problem = mceip_model::Problem::new(body, unknown, Window::all())?;
+        Problem(problem).in_window(None, None)
+    }
+
+    /// The same problem with the values sought in [min, max]; `None` is the lowest value that the
+    /// unknown can have (0, for eigenvalues -infinity), and infinity.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for a max below min, and, but for eigenvalues, for a negative min; for a
+    /// negative max, see `spec/formats.md`.
+    pub fn in_window(
+        self,
+        min: impl Into<Option<Rational>>,
+        max: Option<Rational>,
+    ) -> Result<Problem, Error> {
+        let window = match self.unknown() {
+            Unknown::Lambda2 | Unknown::Mu => {
+                let window = Window::new(min.into().unwrap_or_default(), max)?;
+                RealWindow::from(&window)
+            }
+            Unknown::Eigenvalue => RealWindow::new(min.into(), max)?,
+        };
+        Ok(Problem(self.0.with_real_window(&window)))
     }
 
     /// Which number is sought.
@@ -121,8 +159,8 @@ impl Problem {
     }
 
     /// Where it is sought.
-    pub fn window(&self) -> &Window {
-        self.0.window()
+    pub fn window(&self) -> RealWindow {
+        self.0.real_window()
     }
 
     /// What looked wrong when the problem was made: `mceip convert` writes its warnings into the

@@ -4,6 +4,7 @@ use mceip_check::AcceptedClaim;
 use mceip_engine::report::Listed;
 use mceip_exact::{Interval, Rational};
 use mceip_model::Unknown;
+use num_traits::Zero as _;
 use std::fmt;
 
 /// A solution that the checker has accepted.
@@ -52,6 +53,12 @@ impl Solution {
             v: lifted.map(|(v, _)| doubles(v)),
             w: lifted.map(|(_, w)| doubles(w)),
         }
+    }
+
+    /// Is it this solution, at the value 0?
+    pub(super) fn is_at_zero(&self, other: &AcceptedClaim) -> bool {
+        let is_zero = self.exact_value().is_some_and(Rational::is_zero);
+        is_zero && self.enclosure == other.value && self.support == other.support
     }
 
     /// The value itself, where it is rational and known.

@@ -5,9 +5,9 @@ use super::problem::Problem;
 use super::run::{Watched, watched_question};
 use super::solution::Solution;
 use crate::say;
-use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_engine::certify::Preference;
+use mceip_check::{AcceptedClaim, Proved};
+use mceip_engine::certify::{Preference, of_both_signs};
 use mceip_engine::multistart::{self, Search, Uncertified, multistart};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_model::Reduced;
@@ -55,7 +55,7 @@ impl Found {
         solutions_json(&self.report())
     }
 
-    /// What the search has found, as the engine has it.
+    /// What the search has found among the values that are not negative, as the engine has it.
     pub fn as_run(&self) -> &multistart::MultistartFound {
         &self.run
     }
@@ -71,7 +71,7 @@ impl Found {
             reduced: &self.reduced,
             solutions: self.listed.clone(),
             claim: Claimed::Solutions,
-            evidence: say::search::evidence(&self.run, self.search.seed),
+            evidence: say::search::evidence(&self.run, self.solutions.len(), self.search.seed),
             enumeration: None,
             cover: None,
         }
@@ -153,6 +153,52 @@ impl<'a> Solve<'a> {
     /// problem is beyond the solver.
     pub fn run(self) -> Result<Found, Error> {
         let problem = self.problem.as_model();
+        let mut half = self.half(problem)?;
+        let mut solutions = Vec::new();
+        let mut uncertified = Vec::new();
+        let mut all_listed = Vec::new();
+
+        if let Some(reflected) = problem.reflected() {
+            let negative = self.half(&reflected)?;
+            for (proved, listed) in negative.entries.into_iter().rev() {
+                let (proved, listed) = (proved.reflected(), listed.reflected());
+                solutions.push(Solution::new(problem.unknown(), &proved, &listed));
+                all_listed.push(listed);
+            }
+            for mut point in negative.run.uncertified {
+                point.candidate = point.candidate.reflected();
+                uncertified.push(point);
+            }
+            // What has the value 0 is in both halves.
+            half.entries
+                .retain(|(proved, _)| !solutions.iter().any(|s| s.is_at_zero(proved)));
+            half.run.runs += negative.run.runs;
+            half.run.interrupted |= negative.run.interrupted;
+            half.certificates = of_both_signs(problem, half.certificates, negative.certificates)?;
+        }
+
+        for (proved, listed) in half.entries {
+            solutions.push(Solution::new(problem.unknown(), &proved, &listed));
+            all_listed.push(listed);
+        }
+        uncertified.extend(half.run.uncertified.iter().cloned());
+
+        Ok(Found {
+            solutions,
+            uncertified,
+            runs: half.run.runs,
+            is_cancelled: half.run.interrupted,
+            certificates: half.certificates,
+            problem: problem.clone(),
+            reduced: reduce(problem)?,
+            listed: all_listed,
+            search: self.search,
+            run: half.run,
+        })
+    }
+
+    /// Searches for values of one sign.
+    fn half(&self, problem: &mceip_model::Problem) -> Result<Half, Error> {
         let reduced = reduce(problem)?;
         let watch = self.watched.watch();
         let run = multistart(problem, &reduced, &self.search, &watch)?;
@@ -160,30 +206,28 @@ impl<'a> Solve<'a> {
         let claims: Vec<Claim> = run.certified.iter().map(|c| c.claim.clone()).collect();
         let certificates = Proved::claims(problem, claims)?;
 
-        let mut solutions = Vec::new();
-        let mut all_listed = Vec::new();
+        let mut entries = Vec::new();
         for file in &certificates {
             let proved = file.accepted().claims.iter();
             for (proved, claim) in proved.zip(&file.certificate().claims) {
                 let listed = Listed::of_claim(problem, &reduced, claim);
-                solutions.push(Solution::new(problem.unknown(), proved, &listed));
-                all_listed.push(listed);
+                entries.push((proved.clone(), listed));
             }
         }
 
-        Ok(Found {
-            solutions,
-            uncertified: run.uncertified.clone(),
-            runs: run.runs,
-            is_cancelled: run.interrupted,
-            certificates,
-            problem: problem.clone(),
-            reduced,
-            listed: all_listed,
-            search: self.search,
+        Ok(Half {
             run,
+            certificates,
+            entries,
         })
     }
+}
+
+/// What has been found among the values of one sign.
+struct Half {
+    run: multistart::MultistartFound,
+    certificates: Vec<Proved<Certificate>>,
+    entries: Vec<(AcceptedClaim, Listed)>,
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
-use super::{counted, range_text, slip_text, window_text};
+use super::{counted, range_text, slip_text};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::search::complete::continua::joined;
 use mceip_exact::{Interval, enclosing_decimals};
@@ -9,9 +9,9 @@ use mceip_model::Problem;
 /// Families and open regions printed in full.
 const SHOWN: usize = 20;
 
-/// What a cover has proved, for people.
-pub(crate) fn text(problem: &Problem, cover: &AcceptedCover) -> String {
-    let word = problem.unknown().word();
+/// What a cover of this window has proved, for people.
+pub(crate) fn text(problem: &Problem, window: &str, cover: &AcceptedCover) -> String {
+    let word = problem.word();
     let mut out = String::new();
     for solution in &cover.solutions {
         let (lo, hi) = enclosing_decimals(&solution.value, 15);
@@ -38,12 +38,11 @@ pub(crate) fn text(problem: &Problem, cover: &AcceptedCover) -> String {
         out += &format!("open: {more} more regions (see the certificate)\n");
     }
 
-    out + &verdict_text(problem, cover)
+    out + &verdict_text(window, cover)
 }
 
 /// The last line: is the set complete, and how large is it?
-fn verdict_text(problem: &Problem, cover: &AcceptedCover) -> String {
-    let window = window_text(problem.window());
+fn verdict_text(window: &str, cover: &AcceptedCover) -> String {
     let leaves = cover.leaves;
     let open = cover.open.len();
     let count = count_text(cover);
@@ -78,7 +77,7 @@ fn count_text(cover: &AcceptedCover) -> String {
 }
 
 fn open_text(word: &str, region: &OpenRegion) -> String {
-    let range = range_text(&region.min, region.max.as_ref());
+    let range = range_text(region.min.as_ref(), region.max.as_ref());
     let OpenRegion {
         moving, undecided, ..
     } = region;
@@ -86,7 +85,7 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
 }
 
 fn family_text(problem: &Problem, family: &SolutionFamily) -> String {
-    let values = family_values(problem.unknown().word(), family);
+    let values = family_values(problem.word(), family);
     let slip = slip_text(problem, &family.support);
     let how_many = family_size(family);
     format!("{values}, {slip}, {how_many}")
@@ -94,11 +93,18 @@ fn family_text(problem: &Problem, family: &SolutionFamily) -> String {
 
 /// Where the values of a family lie.
 pub(crate) fn family_values(word: &str, family: &SolutionFamily) -> String {
-    let from = end_text(&family.from);
-    match &family.to {
-        _ if family.is_point => format!("{word} = {from}"),
-        None => format!("every {word} above {from}"),
-        Some(to) => format!("every {word} between {from} and {}", end_text(to)),
+    match (&family.from, &family.to) {
+        (Some(value), _) if family.is_point => format!("{word} = {}", end_text(value)),
+        (None, None) => format!("every {word}"),
+        (Some(from), None) => format!("every {word} above {}", end_text(from)),
+        (None, Some(to)) => format!("every {word} below {}", end_text(to)),
+        (Some(from), Some(to)) => {
+            format!(
+                "every {word} between {} and {}",
+                end_text(from),
+                end_text(to)
+            )
+        }
     }
 }
 

@@ -12,7 +12,7 @@ pub(crate) mod search;
 pub(crate) mod stretches;
 
 use mceip_exact::{Rational, nearest_decimal, parse};
-use mceip_model::{Body, Problem, Window};
+use mceip_model::{Body, Problem, RealWindow};
 
 /// What looked wrong when a file was made, a line each.
 pub(crate) fn warnings_text(warnings: &[String]) -> String {
@@ -36,17 +36,28 @@ pub(crate) fn number_text(value: &Rational) -> String {
 }
 
 /// "[0, 2.5]" or "[0, infinity)".
-pub(crate) fn window_text(window: &Window) -> String {
+pub(crate) fn window_text(window: impl Into<RealWindow>) -> String {
+    let window = window.into();
     range_text(window.min(), window.max())
 }
 
-/// The same of a part of a window.
-pub(crate) fn range_text(min: &Rational, max: Option<&Rational>) -> String {
-    let min = number_text(min);
-    match max {
-        Some(max) => format!("[{min}, {}]", number_text(max)),
-        None => format!("[{min}, infinity)"),
-    }
+/// "[0, 2.5]", or "[-2, -1] and [0, 2.5]".
+pub(crate) fn windows_text(windows: &[RealWindow]) -> String {
+    let windows: Vec<String> = windows.iter().map(window_text).collect();
+    windows.join(" and ")
+}
+
+/// The same of a part of a window; no end is infinity.
+pub(crate) fn range_text(min: Option<&Rational>, max: Option<&Rational>) -> String {
+    let min = min.map_or_else(
+        || "(-infinity".into(),
+        |min| format!("[{}", number_text(min)),
+    );
+    let max = max.map_or_else(
+        || "infinity)".into(),
+        |max| format!("{}]", number_text(max)),
+    );
+    format!("{min}, {max}")
 }
 
 /// "slip [0, 2]", the variables of a support; where all of them belong to particles with names,

@@ -4,7 +4,7 @@ use super::counted;
 use mceip_engine::multistart::MultistartFound;
 
 /// What the search was and how it went.
-pub(crate) fn evidence(found: &MultistartFound, seed: u64) -> String {
+pub(crate) fn evidence(found: &MultistartFound, certified: usize, seed: u64) -> String {
     let search = if found.interrupted {
         "an interrupted search of "
     } else {
@@ -18,9 +18,8 @@ pub(crate) fn evidence(found: &MultistartFound, seed: u64) -> String {
     };
 
     format!(
-        "{} certified found in {search}{} (seed {seed}, {} pivots, {} factorisations, \
+        "{certified} certified found in {search}{} (seed {seed}, {} pivots, {} factorisations, \
          {} repeats, {continua}{} outside the window, endings {:?}); completeness unknown",
-        found.certified.len(),
         counted(found.runs, "run"),
         found.pivots,
         found.factorisations,

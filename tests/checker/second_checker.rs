@@ -320,7 +320,7 @@ fn listed() -> MadeUp {
 fn family(last: Option<[i64; 2]>) -> MadeUp {
     let family = SolutionFamily {
         support: vec![0, 2],
-        from: interval([3, 4]),
+        from: Some(interval([3, 4])),
         to: last.map(interval),
         is_point: false,
         is_alone: true,
@@ -339,7 +339,7 @@ fn family(last: Option<[i64; 2]>) -> MadeUp {
 fn open_region(states: [usize; 3], last: Option<i64>) -> MadeUp {
     const STATES: [&str; 3] = ["rest", "moving", "undecided"];
     let region = OpenRegion {
-        min: whole(3),
+        min: Some(whole(3)),
         max: last.map(whole),
         moving: (0..3).filter(|&i| states[i] == 1).collect(),
         undecided: (0..3).filter(|&i| states[i] == 2).collect(),

@@ -192,10 +192,14 @@ fn cover_lines(cover: &AcceptedCover) -> Vec<String> {
     }
 
     for region in &cover.open {
+        let min = region
+            .min
+            .as_ref()
+            .map_or("-inf".into(), ToString::to_string);
         let max = region.max.as_ref().map(ToString::to_string);
         lines.push(format!(
-            "open [{}, {max:?}] moving {:?} undecided {:?}",
-            region.min, region.moving, region.undecided
+            "open [{min}, {max:?}] moving {:?} undecided {:?}",
+            region.moving, region.undecided
         ));
     }
 
@@ -209,7 +213,7 @@ fn cover_lines(cover: &AcceptedCover) -> Vec<String> {
 }
 
 fn family_line(family: &SolutionFamily) -> String {
-    let from = spelt(&family.from);
+    let from = family.from.as_ref().map_or("-inf".into(), spelt);
     let to = family.to.as_ref().map(spelt);
     format!(
         "family {:?} from {from} to {to:?} (point, alone): ({}, {})",

@@ -231,13 +231,13 @@ impl Case {
 }
 
 fn region_text(region: &OpenRegion) -> String {
-    let max = match &region.max {
-        Some(max) => max.to_string(),
-        None => "inf".into(),
+    let text = |end: &Option<Rational>, without: &str| {
+        end.as_ref().map_or(without.into(), Rational::to_string)
     };
+    let [min, max] = [text(&region.min, "-inf"), text(&region.max, "inf")];
     format!(
-        "in [{}, {max}] moving {:?} undecided {:?}",
-        region.min, region.moving, region.undecided
+        "in [{min}, {max}] moving {:?} undecided {:?}",
+        region.moving, region.undecided
     )
 }
 

@@ -37,15 +37,17 @@ fn decimal(value: &Algebraic, digits: usize) -> String {
 
 /// "[1, 2)" and the like, five digits.
 fn interval_text(piece: &ValueInterval) -> String {
-    let opening = if piece.from.included { "[" } else { "(" };
-    let from = decimal(&piece.from.value, 5);
-
-    let Some(end) = &piece.to else {
-        return format!("{opening}{from}, inf)");
+    let from = match &piece.from {
+        None => "(-inf".into(),
+        Some(from) if from.included => format!("[{}", decimal(&from.value, 5)),
+        Some(from) => format!("({}", decimal(&from.value, 5)),
     };
-    let to = decimal(&end.value, 5);
-    let closing = if end.included { "]" } else { ")" };
-    format!("{opening}{from}, {to}{closing}")
+    let to = match &piece.to {
+        None => "inf)".into(),
+        Some(to) if to.included => format!("{}]", decimal(&to.value, 5)),
+        Some(to) => format!("{})", decimal(&to.value, 5)),
+    };
+    format!("{from}, {to}")
 }
 
 fn intervals(range: &SupportRange) -> Vec<String> {

@@ -61,7 +61,7 @@ fn excluded(value: i64) -> End {
 /// The support has solutions from one value to the other, both included, or without end.
 fn range(support: &[usize], from: i64, to: Option<i64>) -> SupportRange {
     let piece = ValueInterval {
-        from: included(from),
+        from: Some(included(from)),
         to: to.map(included),
     };
     SupportRange {
@@ -214,7 +214,7 @@ fn an_answer_holds_what_it_lists_and_nothing_else() {
 /// From the first value, included, to the second, excluded.
 fn piece(from: i64, to: Option<i64>) -> ValueInterval {
     ValueInterval {
-        from: included(from),
+        from: Some(included(from)),
         to: to.map(excluded),
     }
 }

@@ -339,7 +339,7 @@ fn filtered(zero: &WithZero, states: &[ContactState], unknown: Unknown) -> Optio
 
     let mu = match unknown {
         Unknown::Lambda2 => system.friction(),
-        Unknown::Mu => None,
+        Unknown::Mu | Unknown::Eigenvalue => None,
     };
 
     let mut admitted = 0;

@@ -377,11 +377,11 @@ impl Comparison<'_> {
     }
 }
 
-/// All ends of all pieces of a range; a piece without an upper end has one.
+/// All ends of all pieces of a range.
 fn ends(range: &SupportRange) -> Vec<&End> {
     let mut list = Vec::new();
     for piece in &range.pieces {
-        list.push(&piece.from);
+        list.extend(&piece.from);
         list.extend(&piece.to);
     }
     list
@@ -393,16 +393,14 @@ fn range_holds(range: &SupportRange, alpha: &mut Alpha) -> bool {
 }
 
 fn piece_holds(piece: &ValueInterval, alpha: &mut Alpha) -> bool {
-    let from = compare_with_end(alpha, &piece.from);
-    let is_after_from = from > 0 || (from == 0 && piece.from.included);
-
-    let Some(end) = &piece.to else {
-        return is_after_from;
+    let mut is_beyond = |end: &Option<End>, side: i8| {
+        end.as_ref()
+            .is_some_and(|end| match compare_with_end(alpha, end) {
+                0 => !end.included,
+                place => place.signum() == side,
+            })
     };
-    let to = compare_with_end(alpha, end);
-    let is_before_to = to < 0 || (to == 0 && end.included);
-
-    is_after_from && is_before_to
+    !is_beyond(&piece.from, -1) && !is_beyond(&piece.to, 1)
 }
 
 /// 1 if alpha is larger than the end, 0 if equal, -1 if smaller.

@@ -80,7 +80,7 @@ fn a_lifted_vector_is_v_and_w_over_its_scales() {
 
             let factor_of_mass = match unknown {
                 Unknown::Lambda2 => whole(3),
-                Unknown::Mu => whole(0),
+                Unknown::Mu | Unknown::Eigenvalue => whole(0),
             };
             let system = system(sign);
             let mass = system.mass().unwrap();

@@ -206,6 +206,7 @@ fn certificate(problem: &Problem, claim: ExactSolution) -> Certificate {
         window: Window::all(),
         claims: vec![Claim::ExactSolution(claim)],
         complete_set: None,
+        negative: None,
     }
 }
 

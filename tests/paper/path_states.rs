@@ -56,6 +56,7 @@ fn definite_at(pencil: Pencil, mu: &Rational) -> Result<Accepted, Rejected> {
         unknown: Unknown::Mu,
         window,
         claims: vec![],
+        negative: None,
         complete_set: Some(CompleteSet {
             condensation: None,
             pieces: vec![piece],

@@ -144,7 +144,7 @@ impl AtSlip {
     fn new(system: &System, unknown: Unknown, lifted: &Lifted, value: f64) -> AtSlip {
         let mu = match unknown {
             Unknown::Mu => value,
-            Unknown::Lambda2 => to_f64(system.friction().unwrap()),
+            Unknown::Lambda2 | Unknown::Eigenvalue => to_f64(system.friction().unwrap()),
         };
         let mut at_slip = AtSlip {
             slip: Vec::new(),

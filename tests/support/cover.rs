@@ -107,9 +107,7 @@ fn families_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
     let mut wrong = Vec::new();
     for family in &cover.families {
         let is_face_of_cone = truth.cones.iter().any(|cone| {
-            family.is_point
-                && family.support.iter().all(|i| cone.slip.contains(i))
-                && within(&cone.value, &family.from)
+            family.support.iter().all(|i| cone.slip.contains(i)) && is_at_point(family, &cone.value)
         });
         if !is_face_of_cone && !is_in_ranges(truth, family) {
             wrong.push(format!("the family {family:?} is not there"));
@@ -122,7 +120,8 @@ fn families_in_vain(cover: &AcceptedCover, truth: &Enumeration) -> Vec<String> {
 /// are lists within it; `ranges_left_out` asks for each such value.
 fn is_no_list(truth: &Enumeration) -> bool {
     let mut ranges = truth.ranges.iter();
-    let has_long_range = ranges.any(|range| !range.pieces.iter().all(is_one_value));
+    let has_long_range =
+        ranges.any(|range| !range.pieces.iter().all(|piece| one_value(piece).is_some()));
     let has_wide_cone = truth.cones.iter().any(|cone| cone.dimension > 1);
     has_long_range || has_wide_cone || !truth.undescribed.is_empty()
 }
@@ -172,9 +171,10 @@ fn families_missing(cover: &AcceptedCover, own: &Enumeration, support: &[usize])
 fn families_invented(cover: &AcceptedCover, own: &Enumeration, support: &[usize]) -> Vec<String> {
     let mut wrong = Vec::new();
     for family in cover.families.iter().filter(|f| f.support == support) {
-        let is_cone = own.cones.iter().any(|cone| {
-            family.is_point && cone.slip == support && within(&cone.value, &family.from)
-        });
+        let is_cone = own
+            .cones
+            .iter()
+            .any(|cone| cone.slip == support && is_at_point(family, &cone.value));
         if !is_cone && !is_in_ranges(own, family) {
             wrong.push(format!("the family {family:?} is not there"));
         }
@@ -187,7 +187,8 @@ fn families_invented(cover: &AcceptedCover, own: &Enumeration, support: &[usize]
 fn is_last_of_range(truth: &Enumeration, listed: &AcceptedClaim) -> bool {
     let mut pieces = pieces_of(truth, &listed.support);
     pieces.any(|piece| {
-        is_one_value(piece) && listed.value.is_point() && within(&piece.from.value, &listed.value)
+        let only = one_value(piece).filter(|_| listed.value.is_point());
+        only.is_some_and(|value| within(value, &listed.value))
     })
 }
 
@@ -202,9 +203,11 @@ fn pieces_of<'a>(
         .flat_map(|range| &range.pieces)
 }
 
-fn is_one_value(piece: &ValueInterval) -> bool {
-    let Some(to) = &piece.to else { return false };
-    to.value.clone().equals(&mut piece.from.value.clone())
+/// The value of a piece that has no other.
+fn one_value(piece: &ValueInterval) -> Option<&Algebraic> {
+    let (from, to) = (piece.from.as_ref()?, piece.to.as_ref()?);
+    let is_one = to.value.clone().equals(&mut from.value.clone());
+    is_one.then_some(&from.value)
 }
 
 /// Is this value of a range listed, because the window leaves no other?
@@ -228,7 +231,7 @@ fn values_in_ranges(truth: &Enumeration, support: &[usize]) -> Vec<Algebraic> {
 
 /// The ends of a piece that belong to it, and a number inside.
 fn probes(piece: &ValueInterval) -> Vec<Algebraic> {
-    let ends = std::iter::once(&piece.from).chain(&piece.to);
+    let ends = piece.from.iter().chain(&piece.to);
     let included = ends.filter(|end| end.included);
     let mut values: Vec<Algebraic> = included.map(|end| end.value.clone()).collect();
 
@@ -238,12 +241,12 @@ fn probes(piece: &ValueInterval) -> Vec<Algebraic> {
 
 /// A rational number strictly between the ends of a piece, if it has more than one value.
 fn inside(piece: &ValueInterval) -> Option<Rational> {
-    let mut from = piece.from.value.clone();
-    let Some(end) = &piece.to else {
-        return Some(from.interval().hi() + whole(1));
+    let (mut from, mut to) = match (&piece.from, &piece.to) {
+        (None, None) => return Some(whole(0)),
+        (Some(from), None) => return Some(from.value.interval().hi() + whole(1)),
+        (None, Some(to)) => return Some(to.value.interval().lo() - whole(1)),
+        (Some(from), Some(to)) => (from.value.clone(), to.value.clone()),
     };
-
-    let mut to = end.value.clone();
     if from.clone().cmp_exact(&mut to.clone()) != Ordering::Less {
         return None;
     }
@@ -269,11 +272,14 @@ fn is_in_family(cover: &AcceptedCover, support: &[usize], value: &Algebraic) -> 
 /// enclosures?
 fn has_value(family: &SolutionFamily, value: &Algebraic) -> bool {
     if family.is_point {
-        return within(value, &family.from);
+        return is_at_point(family, value);
     }
 
     let mut value = value.clone();
-    let is_above = value.cmp_rational(family.from.lo()) == Ordering::Greater;
+    let is_above = match &family.from {
+        None => true,
+        Some(end) => value.cmp_rational(end.lo()) == Ordering::Greater,
+    };
     let is_below = match &family.to {
         None => true,
         Some(end) => value.cmp_rational(end.hi()) == Ordering::Less,
@@ -283,23 +289,34 @@ fn has_value(family: &SolutionFamily, value: &Algebraic) -> bool {
 
 /// Is a number of the family (at a point: possibly this one) in a range of its support?
 fn is_in_ranges(truth: &Enumeration, family: &SolutionFamily) -> bool {
-    let number = match &family.to {
-        _ if family.is_point => family.from.mid(),
-        None => family.from.hi() + whole(1),
-        Some(to) => (family.from.hi() + to.lo()) / whole(2),
+    let number = match (&family.from, &family.to) {
+        (Some(value), _) if family.is_point => value.mid(),
+        (None, None) => whole(0),
+        (Some(from), None) => from.hi() + whole(1),
+        (None, Some(to)) => to.lo() - whole(1),
+        (Some(from), Some(to)) => (from.hi() + to.lo()) / whole(2),
     };
     let number = Algebraic::rational(number);
 
     pieces_of(truth, &family.support).any(|piece| {
         piece.contains(&number)
-            || is_point_at(family, &piece.from)
-            || piece.to.as_ref().is_some_and(|to| is_point_at(family, to))
+            || piece
+                .from
+                .iter()
+                .chain(&piece.to)
+                .any(|end| is_point_at(family, end))
     })
 }
 
 /// Is the family a point that encloses this end of a range?
 fn is_point_at(family: &SolutionFamily, end: &End) -> bool {
-    family.is_point && end.included && within(&end.value, &family.from)
+    end.included && is_at_point(family, &end.value)
+}
+
+/// Is the family a point that encloses this value?
+fn is_at_point(family: &SolutionFamily, value: &Algebraic) -> bool {
+    let place = family.from.as_ref().filter(|_| family.is_point);
+    place.is_some_and(|place| within(value, place))
 }
 
 /// Does the interval hold the value? Its ends belong to it.
@@ -322,7 +339,10 @@ fn has_support(region: &OpenRegion, support: &[usize]) -> bool {
 
 fn is_on(region: &OpenRegion, value: &Algebraic) -> bool {
     let mut value = value.clone();
-    let is_below = value.cmp_rational(&region.min) == Ordering::Less;
+    let is_below = match &region.min {
+        None => false,
+        Some(min) => value.cmp_rational(min) == Ordering::Less,
+    };
     let is_above = match &region.max {
         None => false,
         Some(max) => value.cmp_rational(max) == Ordering::Greater,

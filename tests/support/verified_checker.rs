@@ -10,7 +10,7 @@ use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, Rational, parse, rational};
 use mceip_model::file::read_problem_file;
 use mceip_model::reduction::reduce;
-use mceip_model::{Body, Pencil, Problem, Reduced, System, Unknown, Window};
+use mceip_model::{Body, Pencil, Problem, RealWindow, Reduced, System, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate, enumerate_modes};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedVerdict};
 use mceip_testkit::{at_friction, at_lambda2, holds_claim};
@@ -159,7 +159,7 @@ fn friction_of(problem: &Problem) -> Option<&Rational> {
 
 /// What is said where a window is not all of the problem's.
 fn left_out(asked: &Window, whole: &Window) -> String {
-    if asked.covers(whole) {
+    if RealWindow::from(asked).covers(&RealWindow::from(whole)) {
         String::new()
     } else {
         format!("; NOT the whole window {whole} of the problem")
@@ -557,7 +557,7 @@ fn family(text: &str, word: &str) -> Option<SolutionFamily> {
 
     Some(SolutionFamily {
         support: indices(support)?,
-        from,
+        from: Some(from),
         to,
         is_point,
         is_alone: how_many == "one solution at each",
@@ -577,7 +577,7 @@ fn open_region(text: &str, slip: &[usize]) -> Option<OpenRegion> {
         return None;
     }
     Some(OpenRegion {
-        min: window.min().clone(),
+        min: Some(window.min().clone()),
         max: window.max().cloned(),
         moving,
         undecided,

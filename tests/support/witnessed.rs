@@ -54,6 +54,7 @@ pub fn case(rng: &mut ChaCha8Rng) -> Case {
         unknown: problem.unknown(),
         window: problem.window().clone(),
         claims: Vec::new(),
+        negative: None,
         complete_set: Some(CompleteSet {
             condensation: None,
             pieces,

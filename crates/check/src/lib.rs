@@ -58,7 +58,7 @@ pub use proved::{NotAccepted, Provable, Proved};
 pub use reason::{Reason, Rejected, with_short_numbers};
 pub use stability::{AcceptedStability, check_stability};
 
-use crate::certificate::{Certificate, Claim};
+use crate::certificate::{Certificate, Claim, CompleteSet};
 use cover::AcceptedSolution;
 use cover::walk::Audit;
 use exact_solution::{ClaimSize, MAX_WORK};
@@ -77,9 +77,10 @@ pub type LeafPlace = (usize, usize);
 /// What an accepted certificate has proved, claim by claim.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Accepted {
-    /// One entry per claim, in the certificate's order.
+    /// One entry per claim, in the certificate's order; those of values below 0 follow.
     pub claims: Vec<AcceptedClaim>,
-    /// What the claim of a complete set has proved, if the certificate makes one.
+    /// What the claim of a complete set has proved, if the certificate makes one; of values of both
+    /// signs, if it makes two.
     pub cover: Option<AcceptedCover>,
     /// Is T(mu) a P-matrix in the whole window, so that in these contact states the rates of the
     /// quasi-static problem are the only ones, whatever load grows (`spec/certificates.md`, 5.9)?
@@ -106,7 +107,8 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
 
 /// Checks a certificate as [`check`] does, but leaves open each leaf of its cover that fails.
 ///
-/// Beside the verdict on the rest it returns those leaves. A search that wants to replace all
+/// Beside the verdict on the rest it returns those leaves. No leaf of values below 0 is left open.
+/// A search that wants to replace all
 /// leaves that fail calls this once, where it would have to call [`check`] once for each of them.
 ///
 /// # Errors
@@ -118,6 +120,31 @@ pub fn audit(
     let audit = Audit::new(&|| true);
     let accepted = verdict(problem, certificate, Some(&audit))?;
     Ok((accepted, audit.into_refused().unwrap_or_default()))
+}
+
+/// A part of a certificate: what it says of values that are not negative, or of the others.
+struct Part<'a> {
+    window: &'a Window,
+    claims: &'a [Claim],
+    complete_set: Option<&'a CompleteSet>,
+}
+
+impl Certificate {
+    fn non_negative(&self) -> Part<'_> {
+        Part {
+            window: &self.window,
+            claims: &self.claims,
+            complete_set: self.complete_set.as_ref(),
+        }
+    }
+
+    fn negative(&self) -> Option<Part<'_>> {
+        self.negative.as_ref().map(|negative| Part {
+            window: &negative.window,
+            claims: &negative.claims,
+            complete_set: negative.complete_set.as_ref(),
+        })
+    }
 }
 
 /// Checks claims about one problem one by one: its rows are formed once.
@@ -148,22 +175,54 @@ impl<'a> ClaimChecker<'a> {
         }
     }
 
-    /// Checks all claims of a certificate, in its order.
-    fn solutions<'c>(
+    /// The checker of claims about (A, -B).
+    fn reflected(&self) -> ClaimChecker<'a> {
+        ClaimChecker {
+            problem: self.problem,
+            rows: self.rows.reflected(),
+        }
+    }
+
+    /// Checks a part of a certificate: its claims, its complete set, and that they agree.
+    fn part(
         &self,
-        certificate: &'c Certificate,
-    ) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
+        part: &Part<'_>,
+        audit: Option<&Audit<'_>>,
+    ) -> Result<(Vec<AcceptedClaim>, Option<AcceptedCover>), Rejected> {
+        // The solutions come first, because a cover may refer to them.
+        let solutions = self.solutions(part)?;
+        let cover = match part.complete_set {
+            Some(set) => Some(cover::check(
+                &self.rows,
+                part.window,
+                &solutions,
+                set,
+                audit,
+            )?),
+            None => None,
+        };
+
+        let claims: Vec<AcceptedClaim> = solutions.into_iter().map(|s| s.claim).collect();
+        if let Some(cover) = &cover {
+            beside_the_cover(&claims, cover)?;
+        }
+
+        Ok((claims, cover))
+    }
+
+    /// Checks all claims of a part of a certificate, in its order.
+    fn solutions<'c>(&self, part: &Part<'c>) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
         let mut solutions = Vec::new();
-        let allowed = allowed_work(certificate.claims.len());
+        let allowed = allowed_work(part.claims.len());
         let mut work: u64 = 0;
 
-        for (index, claim) in certificate.claims.iter().enumerate() {
+        for (index, claim) in part.claims.iter().enumerate() {
             work = work.saturating_add(work_of(claim));
             let what = "work of the claims up to here (spec/certificates.md, Limits)";
             Reason::at_most(what, allowed, work).map_err(|reason| of_claim(index, reason))?;
 
             let accepted = self
-                .verdict(&certificate.window, claim)
+                .verdict(part.window, claim)
                 .map_err(|reason| of_claim(index, reason))?;
 
             solutions.push(AcceptedSolution {
@@ -203,28 +262,26 @@ fn verdict(
 ) -> Result<Accepted, Rejected> {
     check_frame(problem, certificate)?;
 
-    // The solutions come first, because a cover may refer to them.
     let checker = ClaimChecker::new(problem);
-    let solutions = checker.solutions(certificate)?;
+    let (mut claims, mut cover) = checker.part(&certificate.non_negative(), audit)?;
+    let has_unique_rates = has_unique_rates(problem, certificate, cover.as_ref());
 
-    let cover = match &certificate.complete_set {
-        Some(complete_set) => {
-            let rows = &checker.rows;
-            let window = &certificate.window;
-            Some(cover::check(rows, window, &solutions, complete_set, audit)?)
-        }
-        None => None,
-    };
+    if let Some(negative) = certificate.negative() {
+        let of_negative = checker.reflected().part(&negative, None);
+        let (others, below) = of_negative.map_err(|rejected| Rejected {
+            is_negative: true,
+            ..rejected
+        })?;
 
-    let claims: Vec<AcceptedClaim> = solutions.into_iter().map(|s| s.claim).collect();
-    if let Some(cover) = &cover {
-        beside_the_cover(&claims, cover)?;
+        claims.extend(others.into_iter().map(AcceptedClaim::reflected));
+        let below = below.map(AcceptedCover::reflected);
+        cover = cover::joined(below, cover);
     }
 
     Ok(Accepted {
-        has_unique_rates: has_unique_rates(problem, certificate, cover.as_ref()),
         claims,
         cover,
+        has_unique_rates,
     })
 }
 
@@ -265,7 +322,9 @@ fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reaso
         });
     }
 
-    if certificate.claims.is_empty() && certificate.complete_set.is_none() {
+    let parts = [Some(certificate.non_negative()), certificate.negative()];
+    let mut parts = parts.into_iter().flatten();
+    if parts.all(|part| part.claims.is_empty() && part.complete_set.is_none()) {
         return Err(Reason::NoClaims);
     }
 
@@ -319,6 +378,7 @@ fn biactive_set(claim: &Claim) -> &[usize] {
 /// The rejection of the claim with this number.
 fn of_claim(index: usize, reason: Reason) -> Rejected {
     Rejected {
+        is_negative: false,
         claim: Some(index),
         reason,
     }

@@ -86,6 +86,16 @@ impl Rows {
         }
     }
 
+    /// The rows of the reflected pencil (A, -B).
+    pub(super) fn reflected(&self) -> Rows {
+        let mut reflected = self.clone();
+        for (_, _, b) in reflected.rows.iter_mut().flatten() {
+            *b = -&*b;
+        }
+
+        reflected
+    }
+
     fn with_capacity(order: usize) -> Rows {
         Rows {
             rows: Vec::with_capacity(order),
@@ -683,7 +693,7 @@ mod tests {
             let [right_a, right_b] = given_row(&rows, right);
             let [left_a, left_b] = given_row(&rows, left);
             let expected = match unknown {
-                Unknown::Lambda2 => {
+                Unknown::Lambda2 | Unknown::Eigenvalue => {
                     let factor = &twice_c * rational(2, 7);
                     [times(&gap_a, &factor), times(&gap_b, &factor)]
                 }

@@ -210,6 +210,7 @@ impl Proved<Certificate> {
             window: problem.window().clone(),
             claims,
             complete_set: None,
+            negative: None,
         });
         certificates.map(|c| Proved::new(problem, c)).collect()
     }

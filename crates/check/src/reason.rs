@@ -13,12 +13,15 @@ use mceip_exact::{Interval, Rational};
 /// A rejected certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{}{}",
+    "{}{}{}",
+    if *is_negative { "values below 0: " } else { "" },
     claim.map(|c| format!("claim {c}: ")).unwrap_or_default(),
     with_short_numbers(&reason.to_string())
 )]
 pub struct Rejected {
-    /// The claim that fails; `None` where the certificate as a whole does.
+    /// Is it the part of values below 0 that fails?
+    pub is_negative: bool,
+    /// The claim of that part that fails; `None` where the part as a whole does.
     pub claim: Option<usize>,
     /// Why.
     pub reason: Reason,
@@ -28,6 +31,7 @@ impl From<Reason> for Rejected {
     /// The rejection of the certificate as a whole.
     fn from(reason: Reason) -> Rejected {
         Rejected {
+            is_negative: false,
             claim: None,
             reason,
         }
@@ -514,6 +518,7 @@ mod tests {
 
     fn not_contracting(got: &Integer) -> Rejected {
         Rejected {
+            is_negative: false,
             claim: Some(0),
             reason: Reason::NotContracting {
                 index: 3,

@@ -96,6 +96,14 @@ impl Candidate {
         [self.value - radius, self.value + radius]
     }
 
+    /// The same solution of the reflected pencil: the value changes its sign.
+    pub fn reflected(&self) -> Candidate {
+        Candidate {
+            value: -self.value,
+            x: self.x.clone(),
+        }
+    }
+
     /// The ends of those values in a window; the lower one is above the upper one where there are
     /// none. `None` for a value that is no finite number.
     pub(crate) fn values_near(&self, window: &Window) -> Option<[Rational; 2]> {

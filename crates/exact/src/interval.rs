@@ -96,6 +96,14 @@ impl Interval {
         }
     }
 
+    /// { -t : t in self }.
+    pub fn negated(&self) -> Interval {
+        Interval {
+            lo: -&self.hi,
+            hi: -&self.lo,
+        }
+    }
+
     /// The smallest interval with every sum of a member of each.
     pub fn add(&self, other: &Interval) -> Interval {
         Interval {

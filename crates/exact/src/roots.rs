@@ -27,9 +27,12 @@ pub fn nonnegative_roots(p: &Poly) -> Vec<Algebraic> {
     roots_in(p, &Rational::zero(), None)
 }
 
-/// The distinct real roots of `p` in the closed window [min, max] (`None`: no upper end),
-/// ascending.
-pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebraic> {
+/// The distinct real roots of `p` in the closed window [min, max] (`None`: no end), ascending.
+pub fn roots_in<'a>(
+    p: &Poly,
+    min: impl Into<Option<&'a Rational>>,
+    max: Option<&Rational>,
+) -> Vec<Algebraic> {
     let mut roots = Vec::new();
     let mut squarefree = Squarefree::part_of(p);
 
@@ -38,6 +41,8 @@ pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebra
     }
 
     let bound = cauchy_bound(&squarefree.poly);
+    let lowest = -&bound;
+    let min = min.into().unwrap_or(&lowest);
     let top = match max {
         Some(max) if *max < bound => max.clone(),
         _ => bound,

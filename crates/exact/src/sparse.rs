@@ -136,6 +136,12 @@ impl Sparse {
         Sparse::from_entries(rows.len(), cols.len(), entries)
     }
 
+    /// -self.
+    pub fn negated(&self) -> Sparse {
+        let entries = self.entries().map(|(i, j, v)| (i, j, -v));
+        Sparse::from_entries(self.rows(), self.cols, entries)
+    }
+
     /// `self + factor * other`. Shapes must agree.
     pub fn add_scaled(&self, factor: &Rational, other: &Sparse) -> Sparse {
         let own = self.entries().map(|(i, j, v)| (i, j, v.clone()));

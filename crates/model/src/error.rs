@@ -296,6 +296,32 @@ pub enum ModelError {
         /// Normal reaction given.
         normal: Rational,
     },
+    /// An eigenvalue problem that is not posed on a pencil without free variables.
+    #[error(
+        "unknown eigenvalue: expected a pencil without free variables, got {got} (a body has the \
+         unknowns lambda2 and mu)"
+    )]
+    Eigenvalue {
+        /// What it is posed on.
+        got: String,
+    },
+    /// The window of an eigenvalue problem that is empty, or that ends below 0.
+    #[error(
+        "expected a window min <= max with 0 <= max, got [{min}, {max}] (for values below 0 alone \
+         take -b in place of b: they change their sign)"
+    )]
+    RealWindow {
+        /// Lower end.
+        min: String,
+        /// Upper end.
+        max: String,
+    },
+    /// A certificate that speaks of values below 0 where there are none.
+    #[error("negative: expected the unknown eigenvalue, got {unknown}")]
+    NegativeValues {
+        /// The unknown of the certificate.
+        unknown: &'static str,
+    },
     /// A window that is empty or negative.
     #[error("expected a window 0 <= min <= max, got min = {min}, max = {max}")]
     Window {

@@ -32,4 +32,4 @@ pub use problem::{Body, Problem};
 pub use radii::Radii;
 pub use reduced::{MuFamily, Reduced, ReducedVariable, ZeroPart, ZeroVariables};
 pub use system::{ContactState, Direction, Particle, Reaction, System};
-pub use window::Window;
+pub use window::{RealWindow, Window};

@@ -13,7 +13,8 @@ use super::ModelError;
 use mceip_exact::{DefiniteError, Sparse, positive_definite};
 use num_traits::Zero;
 
-/// Which number is sought: t = lambda^2 in (12)-(14) or t = mu in (21)-(23).
+/// Which number is sought: t = lambda^2 in (12)-(14), t = mu in (21)-(23), or an eigenvalue of a
+/// pencil without a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Unknown {
@@ -21,6 +22,8 @@ pub enum Unknown {
     Lambda2,
     /// MCEIP-mu: A = K0, B = K1, t = mu.
     Mu,
+    /// The eigenvalue complementarity problem: t of either sign, no free variables.
+    Eigenvalue,
 }
 
 impl Unknown {
@@ -29,13 +32,15 @@ impl Unknown {
         match self {
             Unknown::Lambda2 => "lambda2",
             Unknown::Mu => "mu",
+            Unknown::Eigenvalue => "eigenvalue",
         }
     }
 
     /// The proposition that embeds this problem in an MCP.
     pub fn proposition(self) -> &'static str {
         match self {
-            Unknown::Lambda2 => "P2",
+            // Without free variables nothing is asked of A and B.
+            Unknown::Lambda2 | Unknown::Eigenvalue => "P2",
             Unknown::Mu => "P1",
         }
     }
@@ -89,6 +94,25 @@ impl Pencil {
     /// Indices of the free variables, ascending.
     pub fn free(&self) -> &[usize] {
         &self.free
+    }
+
+    /// (A, -B): its solutions with the value s are those of this pencil with the value -s.
+    #[must_use]
+    pub fn reflected(&self) -> Pencil {
+        Pencil {
+            b: self.b.negated(),
+            ..self.clone()
+        }
+    }
+
+    /// Refuses free variables, which an eigenvalue problem has not.
+    pub(super) fn require_no_free(&self) -> Result<(), ModelError> {
+        match self.free.first() {
+            None => Ok(()),
+            Some(index) => Err(ModelError::Eigenvalue {
+                got: format!("a pencil with the free variable {index}"),
+            }),
+        }
     }
 
     /// Indices of the complementarity variables, ascending: the impending-slip particles.
@@ -152,6 +176,7 @@ impl<'a> Admissible<'a> {
                 require_definite("P2", "A_ff (K_ff)", &a_ff)?;
                 require_definite("P2", "B_ff (M_ff)", &b_ff)?;
             }
+            Unknown::Eigenvalue => pencil.require_no_free()?,
         }
 
         Ok(Admissible { pencil, unknown })

@@ -6,7 +6,7 @@
 //!
 //! A problem is read from a file ([`crate::file::read_problem`]) or put together here.
 
-use super::{Coordinates, ModelError, Pencil, System, Unknown, Window, canonical};
+use super::{Coordinates, ModelError, Pencil, RealWindow, System, Unknown, Window, canonical};
 
 /// What the eigenproblem is posed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,6 +30,10 @@ pub struct Problem {
     pub coordinates: Option<Coordinates>,
     unknown: Unknown,
     window: Window,
+    /// The s >= 0 whose -s are wanted, of an eigenvalue problem.
+    negative: Option<Window>,
+    /// Is it the reflection of an eigenvalue problem?
+    is_reflected: bool,
     body: Body,
 }
 
@@ -37,10 +41,13 @@ impl Problem {
     /// A problem for the given unknown in the given window.
     ///
     /// # Errors
-    /// [`ModelError`] where a system lacks what the unknown needs.
+    /// [`ModelError`] where a system lacks what the unknown needs, and where a pencil has what an
+    /// eigenvalue problem has not.
     pub fn new(body: Body, unknown: Unknown, window: Window) -> Result<Self, ModelError> {
-        if let Body::System(system) = &body {
-            system.require_for(unknown)?;
+        match &body {
+            Body::System(system) => system.require_for(unknown)?,
+            Body::Pencil(pencil) if unknown == Unknown::Eigenvalue => pencil.require_no_free()?,
+            Body::Pencil(_) => {}
         }
 
         Ok(Problem {
@@ -50,6 +57,8 @@ impl Problem {
             coordinates: None,
             unknown,
             window,
+            negative: None,
+            is_reflected: false,
             body,
         })
     }
@@ -60,9 +69,17 @@ impl Problem {
         self
     }
 
-    /// The same problem in another window.
+    /// The same problem in another window, of values that are not negative.
     pub fn with_window(mut self, window: Window) -> Self {
         self.window = window;
+        self.negative = None;
+        self
+    }
+
+    /// The same eigenvalue problem in another window.
+    pub fn with_real_window(mut self, window: &RealWindow) -> Self {
+        self.window = window.non_negative();
+        self.negative = window.negative();
         self
     }
 
@@ -71,9 +88,43 @@ impl Problem {
         self.unknown
     }
 
-    /// Where it is sought.
+    /// Is it the reflection of an eigenvalue problem, whose values are those with their sign
+    /// changed?
+    pub fn is_reflected(&self) -> bool {
+        self.is_reflected
+    }
+
+    /// Which number is sought, in words: of a reflected problem that of the given one.
+    pub fn word(&self) -> &'static str {
+        if self.is_reflected {
+            "-eigenvalue"
+        } else {
+            self.unknown.word()
+        }
+    }
+
+    /// Where it is sought among the numbers that are not negative.
     pub fn window(&self) -> &Window {
         &self.window
+    }
+
+    /// Where it is sought.
+    pub fn real_window(&self) -> RealWindow {
+        RealWindow::joined(self.negative.as_ref(), &self.window)
+    }
+
+    /// The problem of (A, -B) whose values are those below 0, with their sign changed, and 0;
+    /// `None` where none are wanted.
+    pub fn reflected(&self) -> Option<Problem> {
+        let window = self.negative.clone()?;
+        let Body::Pencil(pencil) = &self.body else {
+            return None;
+        };
+
+        let mut reflected = self.clone().with_window(window);
+        reflected.body = Body::Pencil(pencil.reflected());
+        reflected.is_reflected = true;
+        Some(reflected)
     }
 
     /// What it is posed on.

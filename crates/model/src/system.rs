@@ -293,7 +293,14 @@ impl System {
     /// # Errors
     /// [`ModelError::Missing`], or [`ModelError::NothingSlips`] for a system without solutions.
     pub fn require_for(&self, unknown: Unknown) -> Result<(), ModelError> {
-        let is_dynamic = unknown == Unknown::Lambda2;
+        let is_dynamic = match unknown {
+            Unknown::Lambda2 => true,
+            Unknown::Mu => false,
+            Unknown::Eigenvalue => {
+                let got = "a body".into();
+                return Err(ModelError::Eigenvalue { got });
+            }
+        };
         let missing = if is_dynamic && self.mass.is_none() {
             Some("mass")
         } else if is_dynamic && self.friction.is_none() {

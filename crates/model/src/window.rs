@@ -1,8 +1,10 @@
-//! The closed window in which values of the unknown are wanted.
+//! The closed window in which values of the unknown are wanted: of lambda^2 and mu one of
+//! non-negative numbers, of an eigenvalue any.
 
 use super::ModelError;
 use mceip_exact::Rational;
-use num_traits::{Signed, Zero};
+use num_traits::{Signed as _, Zero};
+use std::cmp::Ordering;
 use std::fmt;
 
 /// The closed window [min, max], 0 <= min; no max means infinity.
@@ -42,17 +44,6 @@ impl Window {
     pub fn max(&self) -> Option<&Rational> {
         self.max.as_ref()
     }
-
-    /// Does this window hold every value of the other one?
-    pub fn covers(&self, other: &Window) -> bool {
-        let reaches_up = match (&self.max, &other.max) {
-            (None, _) => true,
-            (Some(_), None) => false,
-            (Some(mine), Some(theirs)) => mine >= theirs,
-        };
-
-        self.min <= other.min && reaches_up
-    }
 }
 
 /// "[0, 5/2]" or "[0, infinity)".
@@ -65,6 +56,133 @@ impl fmt::Display for Window {
     }
 }
 
+/// The closed window [min, max] of real numbers; no min means -infinity, no max infinity.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RealWindow {
+    min: Option<Rational>,
+    max: Option<Rational>,
+}
+
+impl RealWindow {
+    /// The real line.
+    pub const ALL: RealWindow = RealWindow {
+        min: None,
+        max: None,
+    };
+
+    /// The window [min, max].
+    ///
+    /// # Errors
+    /// [`ModelError::RealWindow`] if min is above max, or max below 0.
+    pub fn new(min: Option<Rational>, max: Option<Rational>) -> Result<RealWindow, ModelError> {
+        let window = RealWindow { min, max };
+        let RealWindow { min, max } = &window;
+        let is_empty = matches!((min, max), (Some(min), Some(max)) if min > max);
+        let ends_below_zero = max.as_ref().is_some_and(Rational::is_negative);
+        if is_empty || ends_below_zero {
+            let text = |end: &Option<Rational>| end.as_ref().map(ToString::to_string);
+            return Err(ModelError::RealWindow {
+                min: text(min).unwrap_or_else(|| "-infinity".into()),
+                max: text(max).unwrap_or_else(|| "infinity".into()),
+            });
+        }
+
+        Ok(window)
+    }
+
+    /// The values -s with s in `negative`, and those of `window`, which begins where they end.
+    pub(super) fn joined(negative: Option<&Window>, window: &Window) -> RealWindow {
+        RealWindow {
+            min: match negative {
+                Some(negative) => negative.max.as_ref().map(|max| -max),
+                None => Some(window.min.clone()),
+            },
+            max: window.max.clone(),
+        }
+    }
+
+    /// The values that are not negative.
+    pub(super) fn non_negative(&self) -> Window {
+        let min = self.min.clone().unwrap_or_else(Rational::zero);
+        Window {
+            min: min.max(Rational::zero()),
+            max: self.max.clone(),
+        }
+    }
+
+    /// The s >= 0 with -s in the window, if some value of it is negative.
+    pub(super) fn negative(&self) -> Option<Window> {
+        if self.min.as_ref().is_some_and(|min| !min.is_negative()) {
+            return None;
+        }
+
+        Some(Window {
+            min: Rational::zero(),
+            max: self.min.as_ref().map(|min| -min),
+        })
+    }
+
+    /// The -s with s in the window.
+    fn reflection(window: &Window) -> RealWindow {
+        RealWindow {
+            min: window.max.as_ref().map(|max| -max),
+            max: Some(-&window.min),
+        }
+    }
+
+    /// The windows of statements about the -s with s in `negative` and about the values in
+    /// `window`: one where 0 joins them.
+    pub fn of_parts(negative: Option<&Window>, window: Option<&Window>) -> Vec<RealWindow> {
+        match (negative, window) {
+            (Some(negative), Some(window)) if negative.min.is_zero() && window.min.is_zero() => {
+                vec![RealWindow::joined(Some(negative), window)]
+            }
+            (negative, window) => {
+                let negative = negative.map(RealWindow::reflection);
+                negative
+                    .into_iter()
+                    .chain(window.map(RealWindow::from))
+                    .collect()
+            }
+        }
+    }
+
+    /// Does this window hold every value of the other one?
+    pub fn covers(&self, other: &RealWindow) -> bool {
+        let reaches = |mine: &Option<Rational>, theirs: &Option<Rational>, side| {
+            let Some(mine) = mine else { return true };
+            theirs
+                .as_ref()
+                .is_some_and(|theirs| mine.cmp(theirs) != side)
+        };
+
+        let reaches_down = reaches(&self.min, &other.min, Ordering::Greater);
+        reaches_down && reaches(&self.max, &other.max, Ordering::Less)
+    }
+
+    /// Lower end, `None` for -infinity.
+    pub fn min(&self) -> Option<&Rational> {
+        self.min.as_ref()
+    }
+
+    /// Upper end, `None` for infinity.
+    pub fn max(&self) -> Option<&Rational> {
+        self.max.as_ref()
+    }
+}
+
+impl From<&RealWindow> for RealWindow {
+    fn from(window: &RealWindow) -> RealWindow {
+        window.clone()
+    }
+}
+
+impl From<&Window> for RealWindow {
+    fn from(window: &Window) -> RealWindow {
+        RealWindow::joined(None, window)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,7 +190,10 @@ mod tests {
 
     #[test]
     fn a_window_covers_its_parts() {
-        let window = |min: i64, max: Option<i64>| Window::new(whole(min), max.map(whole)).unwrap();
+        let window = |min: i64, max: Option<i64>| {
+            let window = Window::new(whole(min), max.map(whole)).unwrap();
+            RealWindow::from(&window)
+        };
         let (closed, half_line) = (window(1, Some(3)), window(1, None));
 
         for part in [

@@ -125,37 +125,33 @@ impl SupportRange {
     }
 }
 
-/// An interval of values; `to` is `None` where it has no upper end.
+/// An interval of values.
 #[derive(Debug, Clone)]
 pub struct ValueInterval {
-    /// Lower end.
-    pub from: End,
-    /// Upper end.
+    /// Lower end, `None` where it has none.
+    pub from: Option<End>,
+    /// Upper end, `None` where it has none.
     pub to: Option<End>,
 }
 
 impl ValueInterval {
     /// Is this number in the interval?
     pub fn contains(&self, value: &Algebraic) -> bool {
-        let is_below_from = match self.from.place_of(value) {
-            Ordering::Less => true,
-            Ordering::Equal => !self.from.included,
-            Ordering::Greater => false,
-        };
-
-        if is_below_from {
-            return false;
-        }
-
-        let Some(to) = &self.to else {
-            return true;
-        };
-
-        match to.place_of(value) {
+        let is_from_on = self
+            .from
+            .as_ref()
+            .is_none_or(|from| match from.place_of(value) {
+                Ordering::Less => false,
+                Ordering::Equal => from.included,
+                Ordering::Greater => true,
+            });
+        let is_up_to = self.to.as_ref().is_none_or(|to| match to.place_of(value) {
             Ordering::Less => true,
             Ordering::Equal => to.included,
             Ordering::Greater => false,
-        }
+        });
+
+        is_from_on && is_up_to
     }
 }
 

@@ -5,7 +5,7 @@ use super::enumeration::Enumeration;
 use super::integer_pencil::IntegerPencil;
 use super::range;
 use mceip_exact::Algebraic;
-use mceip_model::{Pencil, Window};
+use mceip_model::{Pencil, RealWindow};
 use std::cmp::Ordering;
 
 impl Enumeration {
@@ -35,13 +35,13 @@ impl Enumeration {
     /// described, and puts everything into canonical order. [`super::enumerate`] has done it; who
     /// fills an answer by hand (solutions of kernels of dimension 1, `wide`, `continua`) calls it
     /// at the end.
-    pub fn describe(&mut self, pencil: &Pencil, window: &Window) {
-        self.describe_new(&IntegerPencil::of(pencil), window);
+    pub fn describe(&mut self, pencil: &Pencil, window: impl Into<RealWindow>) {
+        self.describe_new(&IntegerPencil::of(pencil), &window.into());
         self.finish();
     }
 
     /// Describes what was named since the last time.
-    pub(super) fn describe_new(&mut self, pencil: &IntegerPencil<'_>, window: &Window) {
+    pub(super) fn describe_new(&mut self, pencil: &IntegerPencil<'_>, window: &RealWindow) {
         for k in self.described.0..self.wide.len() {
             let kernel = self.wide[k].clone();
             cone::describe(pencil, &kernel, self);

@@ -108,7 +108,7 @@ impl PhysicalSystem {
 
         let mass = match unknown {
             Unknown::Lambda2 => system.mass().cloned(),
-            Unknown::Mu => None,
+            Unknown::Mu | Unknown::Eigenvalue => None, // an eigenvalue is refused above
         };
         Ok(PhysicalSystem {
             stiffness: system.stiffness().clone(),

@@ -18,7 +18,7 @@ use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::{Eigenspace, IntegerPencil};
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
-use mceip_model::{Pencil, Window};
+use mceip_model::{Pencil, RealWindow};
 use std::ops::ControlFlow;
 
 /// Largest number of complementarity variables: each one more doubles the supports.
@@ -61,7 +61,10 @@ pub enum OracleError {
 /// let found = enumerate(&pencil, &Window::all()).unwrap();
 /// assert_eq!(found.solutions[0].decimal(17), "2");
 /// ```
-pub fn enumerate(pencil: &Pencil, window: &Window) -> Result<Enumeration, OracleError> {
+pub fn enumerate(
+    pencil: &Pencil,
+    window: impl Into<RealWindow>,
+) -> Result<Enumeration, OracleError> {
     enumerate_with(pencil, window, |_, _| ControlFlow::Continue(()))
 }
 
@@ -72,12 +75,13 @@ pub fn enumerate(pencil: &Pencil, window: &Window) -> Result<Enumeration, Oracle
 /// As [`enumerate`].
 pub fn enumerate_with(
     pencil: &Pencil,
-    window: &Window,
+    window: impl Into<RealWindow>,
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<Enumeration, OracleError> {
     let slip = pencil.slip();
     require_size(pencil, "slip variables", slip.len())?;
 
+    let window = &window.into();
     let integers = IntegerPencil::of(pencil);
     let total = 1u64 << slip.len();
     let mut found = Enumeration {
@@ -144,17 +148,17 @@ pub fn coefficient_bits(pencil: &Pencil) -> u64 {
 pub fn examine_support(
     pencil: &Pencil,
     support: &[usize],
-    window: &Window,
+    window: impl Into<RealWindow>,
     found: &mut Enumeration,
 ) {
-    examine(&IntegerPencil::of(pencil), support, window, found);
+    examine(&IntegerPencil::of(pencil), support, &window.into(), found);
 }
 
 /// One support: the linear eigenproblem (25) on free and slip variables, then (26).
 fn examine(
     pencil: &IntegerPencil<'_>,
     support: &[usize],
-    window: &Window,
+    window: &RealWindow,
     found: &mut Enumeration,
 ) {
     let active = pencil.active(support);
@@ -281,6 +285,7 @@ fn admissible(
 mod tests {
     use super::*;
     use mceip_exact::{Rational, Sparse, rational, whole};
+    use mceip_model::Window;
 
     const IDENTITY: &[&[i64]] = &[&[1, 0], &[0, 1]];
 

@@ -11,8 +11,8 @@
 //! V is a basis and where the rank is r. Hence the procedure, as in a cylindrical decomposition of
 //! the line:
 //!
-//! 1. the *critical values* are the nonnegative roots of all these minors, and 0;
-//! 2. one rational sample decides each open interval (*cell*) between them;
+//! 1. the *critical values* are the real roots of all these minors, and 0;
+//! 2. one rational sample decides each open interval (*cell*) between, below and above them;
 //! 3. each critical value is decided by the cone of its own (`cone`).
 //!
 //! Input: a support whose determinant vanishes identically, and the window. Called by `solution`.
@@ -21,9 +21,9 @@ use super::cone::cone_at;
 use super::degenerate::{End, SupportRange, Undescribed, ValueInterval};
 use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::IntegerPencil;
-use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
-use mceip_model::Window;
-use num_traits::{One, Signed};
+use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, roots_in};
+use mceip_model::RealWindow;
+use num_traits::One as _;
 use std::cmp::Ordering;
 
 /// Most minors formed for one support: beyond it the support is named as undescribed.
@@ -34,7 +34,7 @@ pub const MAX_MINORS: usize = 4096;
 pub(super) fn describe(
     pencil: &IntegerPencil<'_>,
     support: &[usize],
-    window: &Window,
+    window: &RealWindow,
     found: &mut Enumeration,
 ) {
     let generic = GenericKernel::of(pencil, support);
@@ -147,11 +147,11 @@ fn binomial(n: usize, k: usize) -> usize {
     count
 }
 
-/// The values >= 0 at which something exists.
+/// The values at which something exists.
 struct ValueSet {
-    /// Maximal intervals, cut to [0, infinity).
+    /// Maximal intervals.
     intervals: Vec<ValueInterval>,
-    /// Values that are isolated on the whole real line.
+    /// The other values.
     isolated: Vec<Algebraic>,
 }
 
@@ -172,28 +172,20 @@ impl SingularSupport<'_> {
     }
 
     /// Goes up through the critical values and the cells between them.
-    ///
-    /// A sample below 0 tells whether 0 is an isolated value or belongs to an interval that begins
-    /// below it. Only values from 0 on are returned.
     fn extent(&self, critical: &Poly) -> ValueSet {
-        let below_zero = Algebraic::rational(sample_below_zero(critical));
-        let exists_below_zero = self.exists_at(&below_zero);
-        let mut critical = nonnegative_roots(critical);
-
+        let mut critical = roots_in(critical, None, None);
         let mut extent = ValueSet {
             intervals: Vec::new(),
             isolated: Vec::new(),
         };
 
-        // The lower end of the interval that has begun and not yet ended.
-        let mut begun: Option<End> = None;
-        if exists_below_zero
-            && let Some(zero) = critical.first()
-            && self.exists_at(zero)
-        {
-            begun = Some(End {
-                value: zero.clone(),
-                included: true,
+        // The interval that has begun and not yet ended.
+        let mut begun: Option<ValueInterval> = None;
+        let below_all = critical[0].interval().lo() - Rational::one();
+        if self.exists_at(&Algebraic::rational(below_all)) {
+            begun = Some(ValueInterval {
+                from: None,
+                to: None,
             });
         }
 
@@ -210,28 +202,30 @@ impl SingularSupport<'_> {
                 value,
                 included: exists_here,
             };
-            if let Some(from) = begun.take() {
+            if let Some(interval) = begun.take() {
                 extent.intervals.push(ValueInterval {
-                    from,
                     to: Some(end.clone()),
+                    ..interval
                 });
                 // If the cell above has solutions, the value itself has none: the next one begins.
-                begun = exists_above.then_some(End {
-                    included: false,
-                    ..end
-                });
+                begun = exists_above.then(|| beginning_at(end));
             } else if exists_above {
-                begun = Some(end);
+                begun = Some(beginning_at(end));
             } else if exists_here {
                 extent.isolated.push(end.value);
             }
         }
 
-        if let Some(from) = begun {
-            extent.intervals.push(ValueInterval { from, to: None });
-        }
-
+        extent.intervals.extend(begun);
         extent
+    }
+}
+
+/// The interval from an end on.
+fn beginning_at(end: End) -> ValueInterval {
+    ValueInterval {
+        from: Some(end),
+        to: None,
     }
 }
 
@@ -253,36 +247,14 @@ fn sample_above(critical: &mut [Algebraic], k: usize) -> Rational {
     (below + above) / Rational::from_integer(2.into())
 }
 
-/// A negative rational above all negative roots of a polynomial that vanishes at 0.
-fn sample_below_zero(critical: &Poly) -> Rational {
-    // The negative roots of p(t) are the positive roots of p(-t).
-    let mut mirrored = critical.coeffs().to_vec();
-    for odd in mirrored.iter_mut().skip(1).step_by(2) {
-        *odd = -&*odd;
-    }
-
-    let roots = nonnegative_roots(&Poly::new(mirrored));
-    let Some(mut nearest) = roots.into_iter().nth(1) else {
-        return -Rational::one();
-    };
-
-    // This ends, because the number is not 0, which is the root before it.
-    while !nearest.interval().lo().is_positive() {
-        nearest.refine();
-    }
-
-    -nearest.interval().lo() / Rational::from_integer(2.into())
-}
-
-fn is_within(value: &mut Algebraic, window: &Window) -> bool {
-    if value.cmp_rational(window.min()) == Ordering::Less {
-        return false;
-    }
-
-    match window.max() {
-        Some(max) => value.cmp_rational(max) != Ordering::Greater,
-        None => true,
-    }
+fn is_within(value: &mut Algebraic, window: &RealWindow) -> bool {
+    let is_above_min = window
+        .min()
+        .is_none_or(|min| value.cmp_rational(min).is_ge());
+    let is_below_max = window
+        .max()
+        .is_none_or(|max| value.cmp_rational(max).is_le());
+    is_above_min && is_below_max
 }
 
 /// The part of a piece in the closed window.
@@ -293,9 +265,15 @@ enum Clipped {
 }
 
 /// The part of a piece in the closed window; `None` where they do not meet.
-fn clip(mut piece: ValueInterval, window: &Window) -> Option<Clipped> {
-    if piece.from.value.cmp_rational(window.min()) == Ordering::Less {
-        piece.from = closed_end(window.min());
+fn clip(mut piece: ValueInterval, window: &RealWindow) -> Option<Clipped> {
+    if let Some(min) = window.min() {
+        let is_cut = match &mut piece.from {
+            Some(from) => from.value.cmp_rational(min) == Ordering::Less,
+            None => true,
+        };
+        if is_cut {
+            piece.from = Some(closed_end(min));
+        }
     }
 
     if let Some(max) = window.max() {
@@ -308,14 +286,14 @@ fn clip(mut piece: ValueInterval, window: &Window) -> Option<Clipped> {
         }
     }
 
-    let Some(to) = &mut piece.to else {
+    let (Some(from), Some(to)) = (&mut piece.from, &mut piece.to) else {
         return Some(Clipped::Interval(piece));
     };
 
-    match piece.from.value.cmp_exact(&mut to.value) {
+    match from.value.cmp_exact(&mut to.value) {
         Ordering::Less => Some(Clipped::Interval(piece)),
-        Ordering::Equal if piece.from.included && to.included => {
-            Some(Clipped::SingleValue(piece.from.value))
+        Ordering::Equal if from.included && to.included => {
+            Some(Clipped::SingleValue(from.value.clone()))
         }
         Ordering::Equal | Ordering::Greater => None,
     }
@@ -325,45 +303,5 @@ fn closed_end(value: &Rational) -> End {
     End {
         value: Algebraic::rational(value.clone()),
         included: true,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use mceip_exact::{rational, whole};
-
-    /// t times the linear factors of these roots.
-    fn with_roots(roots: &[(i64, i64)]) -> Poly {
-        let mut product = Poly::from_ints(&[0, 1]);
-        for &(numerator, denominator) in roots {
-            product = &product * &Poly::from_ints(&[-numerator, denominator]);
-        }
-        product
-    }
-
-    /// Between zero and the negative root nearest to it, wherever the positive ones are.
-    #[test]
-    fn the_sample_below_zero_is_above_all_negative_roots() {
-        let cases = [
-            ((-1, 10), vec![(-1, 10), (5, 1)]),
-            ((-4, 1), vec![(-4, 1), (1, 100), (-9, 1)]),
-            ((-3, 1), vec![(-3, 1), (-7, 2), (1, 3), (8, 1)]),
-        ];
-
-        for ((numerator, denominator), roots) in cases {
-            let nearest = rational(numerator, denominator);
-            let sample = sample_below_zero(&with_roots(&roots));
-            assert!(
-                sample > nearest && sample < whole(0),
-                "{nearest:?}: {sample}"
-            );
-        }
-
-        // Irrational: t (t^2 + 3 t + 1) has -0.381966.
-        let sample = sample_below_zero(&Poly::from_ints(&[0, 1, 3, 1]));
-        assert!(sample > rational(-38, 100) && sample < whole(0), "{sample}");
-
-        assert_eq!(sample_below_zero(&with_roots(&[(2, 1)])), whole(-1));
     }
 }

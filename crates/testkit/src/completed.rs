@@ -8,9 +8,10 @@ use super::disagreement::Disagreement;
 use mceip_check::{AcceptedClaim, AcceptedCover, SolutionFamily};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteError, CompleteOptions, Completed, complete};
-use mceip_exact::Algebraic;
+use mceip_exact::{Algebraic, Interval, Rational};
 use mceip_model::Problem;
 use mceip_oracle::{Cone, Enumeration, Solution, SupportRange, ValueInterval, is_between};
+use std::cmp::Ordering;
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
@@ -112,23 +113,25 @@ fn is_described(family: &SolutionFamily, oracle: &Enumeration) -> bool {
 
 /// Does the value lie between the outer ends of the family's values?
 fn lies_in(value: &Algebraic, family: &SolutionFamily) -> bool {
-    match &family.to {
-        Some(to) => is_between(value, family.from.lo(), to.hi()),
-        None => value.clone().cmp_rational(family.from.lo()).is_ge(),
-    }
+    let mut value = value.clone();
+    let mut is_beyond =
+        |end: Option<&Rational>, side| end.is_some_and(|end| value.cmp_rational(end) == side);
+    let is_below = is_beyond(family.from.as_ref().map(Interval::lo), Ordering::Less);
+    let is_above = is_beyond(family.to.as_ref().map(Interval::hi), Ordering::Greater);
+    !is_below && !is_above
 }
 
 /// Does the piece meet the family's values?
 fn meets(piece: &ValueInterval, family: &SolutionFamily) -> bool {
-    let is_below = match &piece.to {
-        Some(to) => to.value.clone().cmp_rational(family.from.lo()).is_ge(),
-        None => true,
+    let ends_below = match (&piece.to, &family.from) {
+        (Some(to), Some(from)) => to.value.clone().cmp_rational(from.lo()).is_lt(),
+        _ => false,
     };
-    let is_above = match &family.to {
-        Some(to) => piece.from.value.clone().cmp_rational(to.hi()).is_le(),
-        None => true,
+    let begins_above = match (&piece.from, &family.to) {
+        (Some(from), Some(to)) => from.value.clone().cmp_rational(to.hi()).is_gt(),
+        _ => false,
     };
-    is_below && is_above
+    !ends_below && !begins_above
 }
 
 /// Same support, and the enumerator's value lies in the accepted interval.

@@ -233,7 +233,7 @@ impl PencilShape {
         let free = (0..self.n_f).collect();
         match unknown {
             Unknown::Mu => Pencil::new(k0, k1, free),
-            Unknown::Lambda2 => {
+            Unknown::Lambda2 | Unknown::Eigenvalue => {
                 let friction = rational(rng.random_range(1..=6), 2);
                 let mass = sparse(&gram(rng, n, self.identity));
                 Pencil::new(k0.add_scaled(&friction, &k1), mass, free)

@@ -132,7 +132,8 @@ static OF_THE_FRAME: &[Tampering<Certificate>] = changes! {
 fn other(unknown: Unknown) -> Unknown {
     match unknown {
         Unknown::Mu => Unknown::Lambda2,
-        Unknown::Lambda2 => Unknown::Mu,
+        Unknown::Lambda2 => Unknown::Eigenvalue,
+        Unknown::Eigenvalue => Unknown::Mu,
     }
 }
 

@@ -30,7 +30,7 @@ pub fn mechanical_pencil(n: usize, unknown: Unknown, seed: u64) -> Result<Proble
 
     let pencil = match unknown {
         Unknown::Mu => Pencil::new(exact(&k0), exact(&k1), Vec::new())?,
-        Unknown::Lambda2 => {
+        Unknown::Lambda2 | Unknown::Eigenvalue => {
             let stiffness = square(n, |i, j| k0[i][j] + 3.0 * k1[i][j]);
             Pencil::new(exact(&stiffness), exact(&mass), Vec::new())?
         }

@@ -328,7 +328,8 @@ impl ProvedSet {
 
     /// The smallest value of a solution, or what it is not below.
     fn smallest(&self) -> Option<f64> {
-        let families = self.families.iter().map(|f| to_f64(f.family.from.lo()));
+        let least = |from: &Option<Interval>| from.as_ref().map_or(0.0, |from| to_f64(from.lo()));
+        let families = self.families.iter().map(|f| least(&f.family.from));
         let values = self.solutions.iter().map(|mode| mode.value);
         values.chain(families).min_by(f64::total_cmp)
     }

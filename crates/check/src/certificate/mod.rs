@@ -13,7 +13,7 @@
 
 use mceip_exact::Integer;
 use mceip_model::file::{Number, from_json, require_format};
-use mceip_model::{ModelError, Unknown, Window};
+use mceip_model::{ModelError, RealWindow, Unknown, Window};
 use serde::{Deserialize, Serialize};
 
 mod cover;
@@ -52,6 +52,20 @@ pub struct Certificate {
     /// Solutions claimed; may be empty beside a complete set.
     pub claims: Vec<Claim>,
     /// The claim that there are no other solutions in the window.
+    pub complete_set: Option<CompleteSet>,
+    /// The same of the values below 0 of an eigenvalue problem.
+    pub negative: Option<Box<NegativeValues>>,
+}
+
+/// What is claimed of the values t < 0 of an eigenvalue problem: claims about the reflected pencil
+/// (A, -B), whose values are -t.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NegativeValues {
+    /// The window in which every claimed -t lies.
+    pub window: Window,
+    /// Solutions of the reflected pencil.
+    pub claims: Vec<Claim>,
+    /// The claim that it has no others in the window.
     pub complete_set: Option<CompleteSet>,
 }
 
@@ -144,6 +158,21 @@ struct CertificateFile {
     #[serde(default, deserialize_with = "object::option")]
     #[serde(skip_serializing_if = "Option::is_none")]
     complete_set: Option<CompleteSet>,
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    negative: Option<NegativeFile>,
+}
+
+/// The file form of [`NegativeValues`].
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NegativeFile {
+    #[serde(deserialize_with = "object::one")]
+    window: FileWindow,
+    claims: Vec<Claim>,
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    complete_set: Option<CompleteSet>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -153,21 +182,87 @@ struct FileWindow {
     max: Option<Number>,
 }
 
+impl FileWindow {
+    fn of(window: &Window) -> FileWindow {
+        FileWindow {
+            min: Number(window.min().clone()),
+            max: window.max().cloned().map(Number),
+        }
+    }
+
+    fn read(self) -> Result<Window, ModelError> {
+        Window::new(self.min.0, self.max.map(|number| number.0))
+    }
+}
+
 impl Certificate {
+    /// The windows of its complete sets or, without any, of its claims: two where values of both
+    /// signs are spoken of and 0 does not join them.
+    pub fn windows(&self) -> Vec<RealWindow> {
+        let negative = self.negative.as_ref();
+        let has_set = self.complete_set.is_some();
+        let negative_has_set = negative.is_some_and(|part| part.complete_set.is_some());
+        let has_any_set = has_set || negative_has_set;
+
+        let is_spoken_of = |has_set: bool, claims: &[Claim]| match has_any_set {
+            true => has_set,
+            false => !claims.is_empty(),
+        };
+        let negative = negative.filter(|part| is_spoken_of(negative_has_set, &part.claims));
+        let window = is_spoken_of(has_set, &self.claims).then_some(&self.window);
+        RealWindow::of_parts(negative.map(|part| &part.window), window)
+    }
+
+    /// With what a certificate of the reflected problem (A, -B) says as its values below 0.
+    #[must_use]
+    pub fn with_negative(self, reflected: Certificate) -> Certificate {
+        let negative = NegativeValues {
+            window: reflected.window,
+            claims: reflected.claims,
+            complete_set: reflected.complete_set,
+        };
+        Certificate {
+            negative: Some(Box::new(negative)),
+            ..self
+        }
+    }
+
+    /// What it says of values that are not negative, and what it says of the others, as a
+    /// certificate of the reflected problem with this digest.
+    pub fn into_halves(self, reflected_sha256: String) -> (Certificate, Option<Certificate>) {
+        let unknown = self.unknown;
+        let reflected = self.negative.map(|negative| Certificate {
+            problem_sha256: reflected_sha256,
+            unknown,
+            window: negative.window,
+            claims: negative.claims,
+            complete_set: negative.complete_set,
+            negative: None,
+        });
+        let non_negative = Certificate {
+            negative: None,
+            ..self
+        };
+
+        (non_negative, reflected)
+    }
+
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let window = FileWindow {
-            min: Number(self.window.min().clone()),
-            max: self.window.max().cloned().map(Number),
-        };
+        let negative = self.negative.as_ref().map(|negative| NegativeFile {
+            window: FileWindow::of(&negative.window),
+            claims: negative.claims.clone(),
+            complete_set: negative.complete_set.clone(),
+        });
 
         let file = CertificateFile {
             format: CERTIFICATE_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
             unknown: self.unknown,
-            window,
+            window: FileWindow::of(&self.window),
             claims: self.claims.clone(),
             complete_set: self.complete_set.clone(),
+            negative,
         };
 
         // The file consists of strings, numbers and lists, so writing it cannot fail.
@@ -178,18 +273,32 @@ impl Certificate {
     ///
     /// # Errors
     /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
-    /// number that cannot be read, an empty window.
+    /// number that cannot be read, an empty window, values below 0 of another unknown than an
+    /// eigenvalue.
     pub fn from_json(text: &str) -> Result<Certificate, ModelError> {
         require_format(text, CERTIFICATE_FORMAT)?;
         let file: CertificateFile = from_json(text)?;
-        let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
+        if file.negative.is_some() && file.unknown != Unknown::Eigenvalue {
+            return Err(ModelError::NegativeValues {
+                unknown: file.unknown.word(),
+            });
+        }
+        let negative = match file.negative {
+            None => None,
+            Some(negative) => Some(Box::new(NegativeValues {
+                window: negative.window.read()?,
+                claims: negative.claims,
+                complete_set: negative.complete_set,
+            })),
+        };
 
         Ok(Certificate {
             problem_sha256: file.problem_sha256,
             unknown: file.unknown,
-            window,
+            window: file.window.read()?,
             claims: file.claims,
             complete_set: file.complete_set,
+            negative,
         })
     }
 }
@@ -282,6 +391,7 @@ mod tests {
             window: Window::all(),
             claims: vec![Claim::ExactSolution(claim)],
             complete_set: None,
+            negative: None,
         }
     }
 

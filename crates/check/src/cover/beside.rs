@@ -57,7 +57,10 @@ impl SolutionFamily {
             Some(to) => to.hi() < claim.value.lo(),
             None => false,
         };
-        let begins_after = self.from.lo() > claim.value.hi();
+        let begins_after = match &self.from {
+            Some(from) => from.lo() > claim.value.hi(),
+            None => false,
+        };
         self.support == claim.support && !ends_before && !begins_after
     }
 }
@@ -70,7 +73,10 @@ impl OpenRegion {
             Some(max) => max < claim.value.lo(),
             None => false,
         };
-        let begins_after = self.min > *claim.value.hi();
+        let begins_after = match &self.min {
+            Some(min) => min > claim.value.hi(),
+            None => false,
+        };
         let meets = !ends_before && !begins_after;
 
         let is_possible = |i: &usize| self.moving.contains(i) || self.undecided.contains(i);
@@ -134,7 +140,7 @@ mod tests {
         let of = |to: Option<Interval>| {
             let family = SolutionFamily {
                 support: vec![0],
-                from: interval(2, 3),
+                from: Some(interval(2, 3)),
                 to,
                 is_point: false,
                 is_alone: true,
@@ -178,7 +184,7 @@ mod tests {
     fn a_claim_belongs_to_an_open_region_that_admits_its_support() {
         let of = |max: Option<i64>| {
             let region = OpenRegion {
-                min: whole(3),
+                min: Some(whole(3)),
                 max: max.map(whole),
                 moving: vec![1],
                 undecided: vec![2, 4],
@@ -221,14 +227,14 @@ mod tests {
     #[test]
     fn a_listed_solution_comes_first() {
         let region = OpenRegion {
-            min: whole(0),
+            min: Some(whole(0)),
             max: None,
             moving: vec![],
             undecided: vec![0],
         };
         let family = SolutionFamily {
             support: vec![0],
-            from: interval(1, 1),
+            from: Some(interval(1, 1)),
             to: None,
             is_point: false,
             is_alone: false,

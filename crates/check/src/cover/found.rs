@@ -10,14 +10,17 @@
 //! * else they could be one or two, and the cover is rejected.
 
 use super::fault::CoverFault;
-use super::proved::{LeafSolution, SolutionFamily};
+use super::proved::{AcceptedCover, LeafSolution, SolutionFamily};
 use crate::AcceptedClaim;
 use mceip_exact::{Interval, Rational};
 
 impl SolutionFamily {
     /// Does the solution lie in it, or at an end of it?
     fn meets(&self, s: &AcceptedClaim) -> bool {
-        let begins_before = self.from.hi() <= s.value.lo();
+        let begins_before = match &self.from {
+            Some(from) => from.hi() <= s.value.lo(),
+            None => true,
+        };
         let ends_after = match &self.to {
             Some(to) => to.lo() >= s.value.hi(),
             None => true,
@@ -29,7 +32,7 @@ impl SolutionFamily {
     fn of_single(solution: AcceptedClaim) -> SolutionFamily {
         SolutionFamily {
             support: solution.support,
-            from: solution.value.clone(),
+            from: Some(solution.value.clone()),
             to: Some(solution.value),
             is_point: true,
             is_alone: true,
@@ -42,7 +45,7 @@ impl SolutionFamily {
         let to = self.to.as_ref().map(|t| (t.lo().clone(), t.hi().clone()));
         (
             self.support.clone(),
-            self.from.lo().clone(),
+            self.from.as_ref().map(|from| from.lo().clone()),
             !self.is_point,
             to,
             !self.is_alone,
@@ -80,6 +83,31 @@ pub(super) fn families(
     // Two leaves share their end, and one of them may have proved more of it: that one is kept.
     list.dedup_by(|next, kept| kept.is_same(next));
     list
+}
+
+/// What two covers have proved together of values below 0 and above. What has the value 0 is in
+/// both, proved by the interval [0, 0]: no other evidence proves a solution at an end of a window.
+pub(super) fn joined(below: AcceptedCover, above: AcceptedCover) -> AcceptedCover {
+    let solutions = below.solutions.into_iter().chain(above.solutions);
+    let mut found: Vec<LeafSolution> = Vec::new();
+    for solution in solutions {
+        found.push(LeafSolution {
+            hull: solution.value.clone(),
+            solution,
+        });
+    }
+    let list = below.families.into_iter().chain(above.families).collect();
+    let families = families(&mut found, list);
+
+    let mut solutions: Vec<AcceptedClaim> = found.into_iter().map(|f| f.solution).collect();
+    solutions.sort_by(|p, q| by_value(p).cmp(&by_value(q)));
+    solutions.dedup();
+    AcceptedCover {
+        families,
+        solutions,
+        open: below.open.into_iter().chain(above.open).collect(),
+        leaves: below.leaves + above.leaves,
+    }
 }
 
 /// Lists each solution once, by value, then by support.
@@ -171,7 +199,7 @@ mod tests {
         let to = to.map(|t| interval(t[0], t[1]));
         SolutionFamily {
             support: vec![0],
-            from: interval(from[0], from[1]),
+            from: Some(interval(from[0], from[1])),
             to,
             is_point,
             is_alone,

@@ -137,6 +137,17 @@ fn check_cover(
     })
 }
 
+/// What the covers of values below 0 and of the others have proved together.
+pub(super) fn joined(
+    below: Option<AcceptedCover>,
+    above: Option<AcceptedCover>,
+) -> Option<AcceptedCover> {
+    match (below, above) {
+        (Some(below), Some(above)) => Some(found::joined(below, above)),
+        (below, above) => below.or(above),
+    }
+}
+
 /// The anchors of the condensation, which is there exactly if there are free variables. Demands
 /// that matrices of the problem's order may be formed, for each part about each anchor.
 fn anchors<'a, A: AnchorOfParts, T>(

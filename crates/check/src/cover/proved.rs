@@ -18,6 +18,28 @@ pub struct AcceptedCover {
 }
 
 impl AcceptedCover {
+    /// What the cover of a reflected pencil (A, -B) has proved of (A, B): values change their sign.
+    pub(crate) fn reflected(self) -> AcceptedCover {
+        let solutions = self.solutions.into_iter().map(AcceptedClaim::reflected);
+        let families = self.families.into_iter().map(|family| SolutionFamily {
+            from: family.to.as_ref().map(Interval::negated),
+            to: family.from.as_ref().map(Interval::negated),
+            ..family
+        });
+        let open = self.open.into_iter().map(|region| OpenRegion {
+            min: region.max.map(|max| -max),
+            max: region.min.map(|min| -min),
+            ..region
+        });
+
+        AcceptedCover {
+            solutions: solutions.collect(),
+            families: families.collect(),
+            open: open.collect(),
+            leaves: self.leaves,
+        }
+    }
+
     /// Is there no solution at all in the window, families included?
     pub fn proves_absence(&self) -> bool {
         self.solutions.is_empty() && self.is_plain_list()
@@ -36,8 +58,8 @@ impl AcceptedCover {
 pub struct SolutionFamily {
     /// Complementarity variables with x_i > 0.
     pub support: Vec<usize>,
-    /// Encloses the value, or the lower end of the open interval of values.
-    pub from: Interval,
+    /// Encloses the value, or the lower end of the open interval of values; `None` for -infinity.
+    pub from: Option<Interval>,
     /// Encloses the upper end, the same as `from` for a single value; `None` for infinity.
     pub to: Option<Interval>,
     /// One value only?
@@ -49,14 +71,24 @@ pub struct SolutionFamily {
 /// A part of (supports) x (window) that the cover leaves open.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OpenRegion {
-    /// Lower end of the interval.
-    pub min: Rational,
+    /// Lower end of the interval, `None` for -infinity.
+    pub min: Option<Rational>,
     /// Upper end, `None` for infinity.
     pub max: Option<Rational>,
     /// Variables known to be in the support: x_i > 0.
     pub moving: Vec<usize>,
     /// Variables not decided.
     pub undecided: Vec<usize>,
+}
+
+impl AcceptedClaim {
+    /// The same solution as one of the reflected pencil.
+    pub fn reflected(self) -> AcceptedClaim {
+        AcceptedClaim {
+            value: self.value.negated(),
+            ..self
+        }
+    }
 }
 
 /// A solution claim that has been accepted, with its biactive set.

@@ -161,7 +161,7 @@ fn collect(
                 }
                 _ => held.families.push(SolutionFamily {
                     support: support.to_vec(),
-                    from: root.value.clone(),
+                    from: Some(root.value.clone()),
                     to: Some(root.value.clone()),
                     is_point: true,
                     is_alone,
@@ -172,7 +172,7 @@ fn collect(
         if let Some(PlaceContent::Solutions { is_alone }) = in_cells.get(k) {
             held.families.push(SolutionFamily {
                 support: support.to_vec(),
-                from: root.value.clone(),
+                from: Some(root.value.clone()),
                 to: roots.get(k + 1).map(|next| next.value.clone()),
                 is_point: false,
                 is_alone: *is_alone,

@@ -228,7 +228,7 @@ impl<'a> CoverWalk<'a> {
     fn open_region(&self, region: &Region) -> OpenRegion {
         let undecided = region.positions(|state| state == VariableState::Undecided);
         OpenRegion {
-            min: Rational::clone(&region.lo),
+            min: Some(Rational::clone(&region.lo)),
             max: region.hi.as_deref().cloned(),
             moving: self.context.problem_indices(region.support()),
             undecided: self.context.problem_indices(undecided),

@@ -65,7 +65,7 @@ pub(super) fn without_friction(necessary: &Necessary, zero_count: usize) -> Dive
     let mut open = Vec::new();
     if verdict == Verdict::Undecided {
         open.push(OpenRegion {
-            min: Rational::zero(),
+            min: Some(Rational::zero()),
             max: None,
             moving: Vec::new(),
             undecided: Vec::new(),

@@ -40,8 +40,8 @@ fn regions(regions: &[OpenRegion]) -> Vec<Value> {
 /// Intervals of values, each between enclosures of its ends.
 fn intervals(families: &[SolutionFamily]) -> Vec<Value> {
     let interval = |family: &SolutionFamily| {
-        let to = family.to.as_ref().map(enclosure);
-        json!({ "from": enclosure(&family.from), "to": to })
+        let [from, to] = [&family.from, &family.to].map(|end| end.as_ref().map(enclosure));
+        json!({ "from": from, "to": to })
     };
     families.iter().map(interval).collect()
 }

@@ -98,7 +98,8 @@ fn named(all: &[String]) -> String {
 /// "mu in [..], mu in [..]", where `name` is mu.
 fn open_text(name: &str, open: &[OpenRegion]) -> String {
     let region = |region: &OpenRegion| {
-        let min = down(&region.min);
+        // Values of lambda^2 and mu are not negative.
+        let min = region.min.as_ref().map_or_else(|| "0".into(), down);
         let max = match &region.max {
             Some(max) => up(max),
             None => "infinity".into(),
@@ -128,7 +129,10 @@ fn definite_text(matrix: &str, definite: &str, until: &DefiniteUntil, relation: 
 
 /// The values of mu of a family over an interval.
 fn values_text(family: &SolutionFamily) -> String {
-    let from = up(family.from.hi());
+    let from = family
+        .from
+        .as_ref()
+        .map_or_else(|| "0".into(), |from| up(from.hi()));
     match &family.to {
         None => format!("every mu > {from}"),
         Some(to) => format!("every mu between {from} and {}", down(to.lo())),
@@ -846,13 +850,13 @@ mod tests {
     fn threshold(from: Option<i64>, open: Option<i64>) -> StaticThreshold {
         let family = |from| SolutionFamily {
             support: vec![0],
-            from: at(from),
+            from: Some(at(from)),
             to: Some(at(5)),
             is_point: false,
             is_alone: true,
         };
         let region = |min| OpenRegion {
-            min: whole(min),
+            min: Some(whole(min)),
             max: None,
             moving: vec![],
             undecided: vec![0],

@@ -32,10 +32,9 @@ impl StaticThreshold {
         }
 
         for family in &found.cover.families {
-            if family.is_point {
-                values.push(family.from.clone());
-            } else {
-                intervals.push(family.clone());
+            match &family.from {
+                Some(value) if family.is_point => values.push(value.clone()),
+                _ => intervals.push(family.clone()),
             }
         }
 
@@ -52,9 +51,15 @@ impl StaticThreshold {
     /// The smallest value, if it is proved that there is no smaller one.
     pub fn smallest(&self) -> Option<&Interval> {
         let smallest = self.values.first()?;
-        let is_first = self.open.iter().all(|o| o.min > *smallest.hi());
-        let begins_all =
-            |family: &SolutionFamily| family.from == *smallest || family.from.lo() > smallest.hi();
+        let begins_above = |open: &OpenRegion| match &open.min {
+            Some(min) => min > smallest.hi(),
+            None => false,
+        };
+        let is_first = self.open.iter().all(begins_above);
+        let begins_all = |family: &SolutionFamily| match &family.from {
+            Some(from) => from == smallest || from.lo() > smallest.hi(),
+            None => false,
+        };
         (is_first && self.intervals.iter().all(begins_all)).then_some(smallest)
     }
 }

@@ -138,7 +138,8 @@ fn regular_support(found: &Completed, problem: &Problem, mu: &Interval) -> Optio
     let solution = here.next()?;
     let reaches_here = |family: &SolutionFamily| {
         let ends_below = family.to.as_ref().is_some_and(|to| to.hi() < mu.lo());
-        family.from.lo() <= mu.hi() && !ends_below
+        let begins_above = family.from.as_ref().is_some_and(|from| from.lo() > mu.hi());
+        !begins_above && !ends_below
     };
     let has_family = found.cover.families.iter().any(reaches_here);
     let is_alone = here.next().is_none() && !has_family;

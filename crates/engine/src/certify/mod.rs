@@ -33,7 +33,39 @@ pub use proposals::{
 };
 
 use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{Proved, Rejected};
 use mceip_model::Problem;
+
+/// A certificate for the problem that says what one of the reflected problem says, of values below
+/// 0, and nothing else.
+pub fn of_negative_values(problem: &Problem, reflected: Certificate) -> Certificate {
+    certificate(problem, Vec::new()).with_negative(reflected)
+}
+
+/// The certificates for an eigenvalue problem, and those for its reflection, in as few files as
+/// they have.
+///
+/// # Errors
+/// [`Rejected`] with the first obligation that fails.
+pub fn of_both_signs(
+    problem: &Problem,
+    non_negative: Vec<Proved<Certificate>>,
+    reflected: Vec<Proved<Certificate>>,
+) -> Result<Vec<Proved<Certificate>>, Rejected> {
+    let mut non_negative = non_negative.into_iter();
+    let mut files = Vec::new();
+    for reflected in reflected {
+        let reflected = reflected.into_certificate();
+        let file = match non_negative.next() {
+            Some(own) => own.into_certificate().with_negative(reflected),
+            None => of_negative_values(problem, reflected),
+        };
+        files.push(Proved::new(problem, file)?);
+    }
+
+    files.extend(non_negative);
+    Ok(files)
+}
 
 /// A certificate for the problem with the given claims and no complete set.
 pub fn certificate(problem: &Problem, claims: Vec<Claim>) -> Certificate {
@@ -43,5 +75,6 @@ pub fn certificate(problem: &Problem, claims: Vec<Claim>) -> Certificate {
         window: problem.window().clone(),
         claims,
         complete_set: None,
+        negative: None,
     }
 }

@@ -204,7 +204,7 @@ impl ForeignVerdict {
     }
 
     fn full_line(&self, problem: &Problem, given: f64) -> String {
-        let word = problem.unknown().word();
+        let word = problem.word();
         let value = plain_or_power(given);
         match self {
             ForeignVerdict::Accepted(proved) => {
@@ -238,7 +238,7 @@ fn plain_or_power(value: f64) -> String {
 
 /// `lambda2 = 2 exists with support {0, 1}`.
 fn existing(problem: &Problem, claim: &Claim) -> String {
-    let word = problem.unknown().word();
+    let word = problem.word();
     let value = value_text(claim);
     let indices: Vec<String> = support(claim).iter().map(ToString::to_string).collect();
     let support = indices.join(", ");
@@ -248,7 +248,7 @@ fn existing(problem: &Problem, claim: &Claim) -> String {
 /// The verdict on a report that differs too much from the proven solution: both values, the proven
 /// x, the worst component.
 fn inaccurate_text(problem: &Problem, given: &str, proved: &Confirmed, tolerance: f64) -> String {
-    let word = problem.unknown().word();
+    let word = problem.word();
     let agreement = &proved.agreement;
     let exists = existing(problem, &proved.claim);
     let x = shown_components(&agreement.proven);

@@ -130,6 +130,24 @@ impl Listed {
         entries.into_iter().map(|entry| entry.listed).collect()
     }
 
+    /// A solution of the reflected pencil (A, -B) as one of (A, B): the value changes its sign.
+    #[must_use]
+    pub fn reflected(self) -> Listed {
+        let exact = self.exact.map(|(mut polynomial, [lo, hi])| {
+            for odd in polynomial.iter_mut().skip(1).step_by(2) {
+                *odd = -&*odd;
+            }
+            (polynomial, [-hi, -lo])
+        });
+
+        Listed {
+            value: negated(&self.value),
+            enclosure: self.enclosure.map(|[lo, hi]| [negated(&hi), negated(&lo)]),
+            exact,
+            ..self
+        }
+    }
+
     /// From a cone of the enumerator: `x` is the mean of its rays.
     pub fn of_cone(problem: &Problem, reduced: &Reduced, cone: &Cone) -> Listed {
         let center = cone.center(&reduced.pencil.slip());
@@ -200,6 +218,15 @@ impl Listed {
             let listed = list.listed(proved, x, found.claim_about(proved));
             (proved, listed)
         })
+    }
+}
+
+/// The decimal of -t, where `decimal` is one of t.
+fn negated(decimal: &str) -> String {
+    match decimal.strip_prefix('-') {
+        Some(positive) => positive.into(),
+        None if decimal == "0" => decimal.into(),
+        None => format!("-{decimal}"),
     }
 }
 

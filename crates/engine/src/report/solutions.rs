@@ -153,7 +153,7 @@ fn enumerated_families(found: &Enumeration) -> Value {
         let value = narrowed(&cone.value);
         families.push(SolutionFamily {
             support: cone.slip.clone(),
-            from: value.clone(),
+            from: Some(value.clone()),
             to: Some(value),
             is_point: true,
             is_alone: false,
@@ -164,7 +164,7 @@ fn enumerated_families(found: &Enumeration) -> Value {
         for piece in &range.pieces {
             families.push(SolutionFamily {
                 support: range.support.clone(),
-                from: narrowed(&piece.from.value),
+                from: piece.from.as_ref().map(|from| narrowed(&from.value)),
                 to: piece.to.as_ref().map(|to| narrowed(&to.value)),
                 is_point: false,
                 is_alone: range.kernel.len() == 1,
@@ -187,7 +187,7 @@ fn narrowed(value: &Algebraic) -> Interval {
 fn family(family: &SolutionFamily) -> Value {
     json!({
         "slip": family.support,
-        "from": enclosure(&family.from),
+        "from": family.from.as_ref().map(enclosure),
         "to": family.to.as_ref().map(enclosure),
         "one_value": family.is_point,
         "one_solution_each": family.is_alone,
@@ -201,9 +201,9 @@ fn enclosure(value: &Interval) -> [String; 2] {
 
 /// A region that a cover leaves open.
 pub(crate) fn region_json(region: &OpenRegion) -> Value {
-    let max = region.max.as_ref().map(ToString::to_string);
+    let [min, max] = [&region.min, &region.max].map(|end| end.as_ref().map(ToString::to_string));
     json!({
-        "min": region.min.to_string(),
+        "min": min,
         "max": max,
         "moving": region.moving,
         "undecided": region.undecided,
@@ -227,7 +227,7 @@ fn range(range: &SupportRange) -> Value {
 }
 
 fn interval(piece: &ValueInterval) -> Value {
-    json!({ "from": end(&piece.from), "to": piece.to.as_ref().map(end) })
+    json!({ "from": piece.from.as_ref().map(end), "to": piece.to.as_ref().map(end) })
 }
 
 /// An end of an interval of values: in decimals, and exactly.
@@ -429,15 +429,18 @@ fn cone_text(report: &Report<'_>, cone: &Cone) -> String {
 }
 
 fn interval_text(piece: &ValueInterval) -> String {
-    let bracket = if piece.from.included { "[" } else { "(" };
-    let from = end_text(&piece.from);
-    let Some(to) = &piece.to else {
-        return format!("{bracket}{from}, infinity)");
+    let from = match &piece.from {
+        None => "(-infinity".into(),
+        Some(from) if from.included => format!("[{}", end_text(from)),
+        Some(from) => format!("({}", end_text(from)),
+    };
+    let to = match &piece.to {
+        None => "infinity)".into(),
+        Some(to) if to.included => format!("{}]", end_text(to)),
+        Some(to) => format!("{})", end_text(to)),
     };
 
-    let closing_bracket = if to.included { "]" } else { ")" };
-    let to = end_text(to);
-    format!("{bracket}{from}, {to}{closing_bracket}")
+    format!("{from}, {to}")
 }
 
 /// Digits of an end that is no short number.

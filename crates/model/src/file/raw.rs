@@ -8,7 +8,7 @@ use super::matrix::{RawMatrix, RawRadius};
 use super::{Number, Object, SystemFile, Word};
 use crate::{
     Body, BodyNode, ContactState, Coordinates, LoadedBody, ModelError, Particle, Pencil,
-    PrescribedDisplacement, Problem, Radii, Reaction, System, Unknown, Window,
+    PrescribedDisplacement, Problem, Radii, Reaction, RealWindow, System, Unknown, Window,
 };
 use mceip_exact::{Rational, Sparse, whole};
 use num_traits::Zero;
@@ -115,8 +115,7 @@ impl RawProblem {
     /// Builds the problem; Matrix Market files that it names are looked for in `folder`.
     pub(super) fn build(mut self, folder: &Path) -> Result<Problem, ModelError> {
         self.name_particles()?;
-        let window = RawWindow::build_given(self.window)?;
-
+        let unknown = self.unknown.0;
         let body = match (self.pencil, self.system) {
             (Some(Object(pencil)), None) => Body::Pencil(pencil.build(folder)?),
             (None, Some(Object(system))) => Body::System(system.build(folder)?),
@@ -135,7 +134,14 @@ impl RawProblem {
             }
         };
 
-        let mut problem = Problem::new(body, self.unknown.0, window)?;
+        let window = self.window.map(|Object(window)| window);
+        let mut problem = match unknown {
+            Unknown::Lambda2 | Unknown::Mu => {
+                Problem::new(body, unknown, RawWindow::build_given(window)?)?
+            }
+            Unknown::Eigenvalue => Problem::new(body, unknown, Window::all())?
+                .with_real_window(&RawWindow::build_real(window)?),
+        };
         problem.name = self.name;
         problem.comment = self.comment;
         problem.warnings = self.warnings;
@@ -147,13 +153,18 @@ impl RawProblem {
     /// Builds the system alone, without friction where that is 0; `None` for a pencil.
     pub(super) fn build_system(mut self, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
         self.name_particles()?;
-        let window = RawWindow::build_given(self.window)?;
+        let window = RawWindow::build_given(self.window.map(|Object(window)| window))?;
         let mut raw = match (self.pencil, self.system) {
             (None, Some(Object(raw))) => raw,
             (Some(_), None) => return Ok(None),
             (None, None) => return Err(ModelError::Body { got: "neither" }),
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
+
+        if self.unknown.0 == Unknown::Eigenvalue {
+            let got = "a body".into();
+            return Err(ModelError::Eigenvalue { got });
+        }
 
         let friction = raw.friction.as_ref().map(|number| number.0.clone());
         if friction.as_ref().is_some_and(Rational::is_zero) {
@@ -192,11 +203,18 @@ impl RawProblem {
 
 impl RawWindow {
     /// All values without a window.
-    fn build_given(given: Option<Object<RawWindow>>) -> Result<Window, ModelError> {
+    fn build_given(given: Option<RawWindow>) -> Result<Window, ModelError> {
         match given {
             None => Ok(Window::all()),
-            Some(Object(window)) => window.build(),
+            Some(window) => window.build(),
         }
+    }
+
+    /// No `min` means -infinity, no `max` infinity.
+    fn build_real(given: Option<RawWindow>) -> Result<RealWindow, ModelError> {
+        let ends = given.map(|window| (window.min, window.max));
+        let (min, max) = ends.unwrap_or_default();
+        RealWindow::new(min.map(|number| number.0), max.map(|number| number.0))
     }
 
     /// No `min` means 0, no `max` means infinity.

@@ -6,7 +6,9 @@
 
 use super::{LOADS_FORMAT, LoadsFile, Number, PROBLEM_FORMAT, write_matrix_market};
 use crate::LoadedBody;
-use crate::{Body, ContactState, Coordinates, Particle, Pencil, Problem, Radii, System, Window};
+use crate::{
+    Body, ContactState, Coordinates, Particle, Pencil, Problem, Radii, RealWindow, System,
+};
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One as _, Zero as _};
 use serde_json::{Map, Value, json};
@@ -21,7 +23,7 @@ pub fn write_problem(problem: &Problem) -> String {
         coordinates: problem.coordinates.as_ref(),
     });
     out.insert("unknown".into(), json!(problem.unknown().word()));
-    out.insert("window".into(), write_window(problem.window()));
+    out.insert("window".into(), write_window(&problem.real_window()));
 
     match problem.body() {
         Body::Pencil(pencil) => out.insert("pencil".into(), write_pencil(pencil)),
@@ -147,9 +149,9 @@ pub fn write_sparse(m: &Sparse) -> Value {
     json!({ "rows": m.rows(), "cols": m.cols(), "entries": entries })
 }
 
-fn write_window(window: &Window) -> Value {
-    let max = window.max().map(Rational::to_string);
-    json!({ "min": window.min().to_string(), "max": max })
+fn write_window(window: &RealWindow) -> Value {
+    let [min, max] = [window.min(), window.max()].map(|end| end.map(Rational::to_string));
+    json!({ "min": min, "max": max })
 }
 
 fn write_coordinates(coordinates: &Coordinates) -> Value {

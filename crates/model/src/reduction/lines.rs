@@ -131,8 +131,8 @@ fn friction(system: &System, unknown: Unknown) -> FrictionTerm {
     match (unknown, system.friction()) {
         (Unknown::Mu, _) => FrictionTerm::IsUnknown,
         (Unknown::Lambda2, Some(mu)) => FrictionTerm::Given(mu.clone()),
-        // A system without mu has no MCEIP-lambda2: `System::require_for` refuses it.
-        (Unknown::Lambda2, None) => FrictionTerm::Given(Rational::one()),
+        // `System::require_for` refuses lambda2 without mu, and eigenvalues of a body.
+        (Unknown::Lambda2 | Unknown::Eigenvalue, _) => FrictionTerm::Given(Rational::one()),
     }
 }
 

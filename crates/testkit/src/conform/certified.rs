@@ -229,7 +229,7 @@ fn best_known(
 
     let window = draft.problem.window();
     let everything = OpenRegion {
-        min: window.min().clone(),
+        min: Some(window.min().clone()),
         max: window.max().cloned(),
         moving: Vec::new(),
         undecided: reduced.pencil.slip(),

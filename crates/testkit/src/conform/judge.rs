@@ -422,12 +422,16 @@ fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
     }
 
     for (piece, interval) in range.pieces.iter().zip(&reported.intervals) {
+        let same_lower_end = match &piece.from {
+            Some(end) => same_end(end, &interval.from),
+            None => false, // what is reported begins somewhere
+        };
         let same_upper_end = match (&piece.to, &interval.to) {
             (Some(end), Some(reported)) => same_end(end, reported),
             (None, None) => true,
             _ => false,
         };
-        if !same_end(&piece.from, &interval.from) || !same_upper_end {
+        if !same_lower_end || !same_upper_end {
             return false;
         }
     }

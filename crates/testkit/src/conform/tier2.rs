@@ -83,7 +83,7 @@ fn random(name: &str, number: u64, unknown: Unknown) -> Result<Group, ModelError
     let mut drafts = Vec::new();
     for (k, (n_s, n_f, [of_lambda2, of_mu])) in RANDOM.into_iter().enumerate() {
         let completeness = match unknown {
-            Unknown::Lambda2 => of_lambda2,
+            Unknown::Lambda2 | Unknown::Eigenvalue => of_lambda2,
             Unknown::Mu => of_mu,
         };
         let n = n_s + n_f;

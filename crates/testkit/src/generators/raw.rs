@@ -49,7 +49,9 @@ pub(super) fn of_elements(
     let free = (0..n_f).collect();
     match unknown {
         Unknown::Mu => Pencil::new(k0, k1, free),
-        Unknown::Lambda2 => Pencil::new(k0.add_scaled(&friction(), &k1), mass, free),
+        Unknown::Lambda2 | Unknown::Eigenvalue => {
+            Pencil::new(k0.add_scaled(&friction(), &k1), mass, free)
+        }
     }
 }
 

@@ -119,6 +119,7 @@ mod tests {
             unknown: Unknown::Mu,
             window: Window::all(),
             claims: vec![],
+            negative: None,
             complete_set: Some(CompleteSet {
                 condensation: None,
                 pieces: vec![piece],

@@ -152,7 +152,7 @@ fn a_solution_beside_a_cell_of_them_is_not_single() {
             panic!("two points and a cell")
         };
         assert!(!cell.is_point);
-        assert_eq!(cell.from, Interval::point(whole(held_cell - 1)));
+        assert_eq!(cell.from, Some(Interval::point(whole(held_cell - 1))));
         assert_eq!(cell.to, Some(Interval::point(whole(held_cell))));
     }
 }

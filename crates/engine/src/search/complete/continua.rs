@@ -28,7 +28,7 @@ fn continues(interval: &SolutionFamily, value: &SolutionFamily, next: &SolutionF
     let are_of_the_kind = !interval.is_point && value.is_point && !next.is_point;
     let has_one_support = interval.support == value.support && value.support == next.support;
     let is_alike = interval.is_alone == value.is_alone && value.is_alone == next.is_alone;
-    let meets = interval.to.as_ref() == Some(&value.from) && value.from == next.from;
+    let meets = interval.to == value.from && value.from == next.from;
 
     are_of_the_kind && has_one_support && is_alike && meets
 }
@@ -42,7 +42,7 @@ mod tests {
         let point = |v: i64| Interval::point(whole(v));
         SolutionFamily {
             support: vec![support],
-            from: point(from),
+            from: Some(point(from)),
             to: to.map(point),
             is_point: to == Some(from),
             is_alone,
