@@ -20,4 +20,5 @@ mod complete_ends;
 mod complete_random;
 mod complete_tail;
 mod complete_zero;
+mod eigenvalues;
 mod listed_x;

@@ -1,0 +1,208 @@
+//! Eigenvalue complementarity problems: values of both signs, against the exact enumerator, which
+//! goes through the whole real line and knows no reflection; and what the literature has counted.
+#![cfg(feature = "testkit")]
+
+use crate::cover::disagreements;
+use mceip::{Matrix, Problem, check};
+use mceip_check::certificate::Certificate;
+use mceip_check::{Accepted, Reason};
+use mceip_exact::{Rational, rational, whole};
+use mceip_model::{Body, Pencil, RealWindow, Unknown, Window};
+use mceip_oracle::{Enumeration, enumerate};
+use mceip_testkit::generators::raw::{digits, doubled, graph, identity, zeros};
+use mceip_testkit::pareto::pareto_matrices;
+use rand::RngExt as _;
+use rand_chacha::ChaCha8Rng;
+use std::collections::BTreeMap;
+
+/// The eigenvalue problem of a pencil.
+fn posed(pencil: Pencil, window: &RealWindow) -> Problem {
+    let body = Body::Pencil(pencil);
+    let problem = mceip_model::Problem::new(body, Unknown::Eigenvalue, Window::all()).unwrap();
+    Problem::from(problem.with_real_window(window))
+}
+
+/// A window that holds 0, or begins above it; often the real line.
+fn drawn_window(rng: &mut ChaCha8Rng) -> RealWindow {
+    let mut end = |probability: f64, low: i64| {
+        let is_there = rng.random_bool(probability);
+        is_there.then(|| rational(rng.random_range(low..low + 12), 2))
+    };
+    let (min, max) = (end(0.4, -8), end(0.4, 0));
+    RealWindow::new(min, max).unwrap_or(RealWindow::ALL)
+}
+
+fn drawn_pencil(k: usize, rng: &mut ChaCha8Rng) -> Pencil {
+    let n = rng.random_range(1..=5);
+    let pencil = match k % 5 {
+        0 => digits(rng, n, 0),
+        1 => zeros(rng, n),
+        2 => doubled(rng, n.max(2)),
+        3 => graph(rng, n),
+        _ => identity(rng, n),
+    };
+    pencil.unwrap()
+}
+
+/// What a campaign has met, so that it cannot pass by meeting nothing.
+#[derive(Default)]
+struct Met(BTreeMap<&'static str, usize>);
+
+impl Met {
+    fn note(&mut self, truth: &Enumeration, window: &RealWindow, is_complete: bool) {
+        let mut count = |name, is_met| *self.0.entry(name).or_default() += usize::from(is_met);
+        let sign = |s: &mceip_oracle::Solution| s.value.clone().cmp_rational(&whole(0)) as i8;
+        let of_sign = |wanted| truth.solutions.iter().any(|s| sign(s) == wanted);
+
+        count("a solution below 0", of_sign(-1));
+        count("a solution at 0", of_sign(0));
+        count("a solution above 0", of_sign(1));
+        count(
+            "none",
+            truth.solutions.is_empty() && truth.ranges.is_empty(),
+        );
+        let mut pieces = truth.ranges.iter().flat_map(|range| &range.pieces);
+        count(
+            "a continuum from -infinity",
+            pieces.any(|piece| piece.from.is_none()),
+        );
+        count("the real line", *window == RealWindow::ALL);
+        count(
+            "no value below 0",
+            window.min().is_some_and(|min| *min >= whole(0)),
+        );
+        count("complete", is_complete);
+    }
+}
+
+/// 250 pencils: the search finds what the enumerator finds, or leaves it open.
+#[test]
+fn eigenvalues_of_both_signs_are_those_of_the_enumerator() {
+    let mut met = Met::default();
+    for k in 0..250 {
+        let mut rng = mceip_testkit::generators::rng(42, k as u64);
+        let pencil = drawn_pencil(k, &mut rng);
+        let window = drawn_window(&mut rng);
+        let truth = enumerate(&pencil, &window).unwrap();
+        let problem = posed(pencil, &window);
+
+        let found = problem.complete().run().unwrap();
+        let cover = found.proved().accepted().cover.as_ref().unwrap();
+        let wrong = disagreements(cover, &truth);
+        assert!(wrong.is_empty(), "{k}: {wrong:?}: {}", problem.to_json());
+
+        // What is written is read, and accepted as what was found.
+        let file = found.proved().file().unwrap();
+        let again = Certificate::from_json(&file).unwrap();
+        assert_eq!(
+            check(&problem, &again).as_ref(),
+            Ok(found.proved().accepted()),
+            "{k}"
+        );
+        met.note(&truth, &window, found.is_complete());
+    }
+
+    println!("{:?}", met.0);
+    for (what, floor) in [
+        ("a solution below 0", 50),
+        ("a solution at 0", 70),
+        ("a solution above 0", 100),
+        ("none", 25),
+        ("a continuum from -infinity", 15),
+        ("the real line", 80),
+        ("no value below 0", 20),
+        ("complete", 245),
+    ] {
+        assert!(met.0[what] >= floor, "{what}: {:?}", met.0);
+    }
+}
+
+/// What is said of values below 0 is said of the reflected pencil: with the pencil itself in its
+/// place, a window cut short or the parts exchanged no certificate that lists one is accepted.
+#[test]
+fn what_is_said_of_the_wrong_sign_is_refused() {
+    let mut refused = 0;
+    for k in 0..60 {
+        let mut rng = mceip_testkit::generators::rng(43, k);
+        let pencil = digits(&mut rng, 3, 0).unwrap();
+        let problem = posed(pencil, &RealWindow::ALL);
+        let found = problem.complete().run().unwrap();
+        if !found.is_complete() || found.solutions().is_empty() {
+            continue;
+        }
+
+        let certificate = found.certificate().clone();
+        let negative = certificate.negative.clone().unwrap();
+        let exchanged = Certificate {
+            window: negative.window,
+            claims: negative.claims,
+            complete_set: negative.complete_set,
+            negative: None,
+            ..certificate.clone()
+        }
+        .with_negative(certificate);
+        assert!(check(&problem, &exchanged).is_err(), "{k}");
+        refused += 1;
+    }
+    assert!(refused >= 30, "{refused}");
+}
+
+/// Of P x - lambda x >= 0 there are 3, 9, 23 and 57 Pareto eigenvalues, for orders 2 to 5.
+#[test]
+fn the_counts_of_the_literature_are_proved() {
+    for pareto in pareto_matrices() {
+        let n = pareto.matrix.rows();
+        // (P - lambda I) x = (t B - A) x with A = -P and B = -I.
+        let minus = |m: &mceip_exact::Sparse| Matrix::from(m.negated());
+        let identity = mceip_exact::Sparse::identity(n);
+        let problem = Problem::eicp(minus(&pareto.matrix), minus(&identity)).unwrap();
+
+        let found = problem.complete().run().unwrap();
+        assert!(found.is_complete());
+        assert_eq!(found.solutions().len(), pareto.count);
+
+        let largest = found.solutions().last().unwrap().value;
+        let solved = problem.solve().all().run().unwrap();
+        assert!(solved.solutions.len() >= pareto.count / 2);
+        assert!(solved.solutions.iter().all(|s| s.value <= largest));
+        for file in solved.certificates() {
+            check(&problem, file.certificate()).unwrap();
+        }
+    }
+}
+
+/// t = -2 alone: it is certified near by, and nowhere else.
+#[test]
+fn a_point_below_zero_is_certified() {
+    let two = Matrix::from_rows(&[[-2.0]]).unwrap();
+    let problem = Problem::eicp(two, Matrix::identity(1)).unwrap();
+
+    let certified = problem.certify(-2.000001, &[1.0]).unwrap();
+    assert_eq!(certified.solution.value, -2.0);
+    let accepted: Accepted = check(&problem, certified.certificate()).unwrap();
+    assert_eq!(accepted.claims[0].value.lo(), &whole(-2));
+    assert!(problem.certify(2.0, &[1.0]).is_err());
+
+    let above = problem.in_window(Rational::default(), None).unwrap();
+    assert!(above.certify(-2.0, &[1.0]).is_err());
+    assert!(above.complete().run().unwrap().is_empty());
+}
+
+/// A certificate of a pencil is none of its eigenvalue problem.
+#[test]
+fn another_unknown_is_another_problem() {
+    let pencil = || Pencil::new(minus_two(), mceip_exact::Sparse::identity(1), vec![]).unwrap();
+    let of = |unknown| {
+        let body = Body::Pencil(pencil());
+        Problem::from(mceip_model::Problem::new(body, unknown, Window::all()).unwrap())
+    };
+    let (eigenvalue, lambda2) = (of(Unknown::Eigenvalue), of(Unknown::Lambda2));
+
+    let found = eigenvalue.complete().run().unwrap();
+    let refused = check(&lambda2, found.certificate()).unwrap_err();
+    assert!(matches!(refused.reason, Reason::Digest { .. }));
+}
+
+fn minus_two() -> mceip_exact::Sparse {
+    mceip_exact::Sparse::from_ints(&[&[-2]])
+}
