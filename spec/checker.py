@@ -143,13 +143,12 @@ def nearest_double(q):
         raise Unreadable("beyond the doubles") from None
 
 
-def read_window(obj):
-    if obj is None:
-        return Q(0), None
-    lo, hi = fields(obj, "", "min max")
+def read_window(obj, unknown=None):
+    """A window; `unknown` of a problem: its min may be negative for eigenvalue."""
+    lo, hi = fields({} if obj is None else obj, "", "min max")
     lo, hi = Q(0) if lo is None else number(lo), None if hi is None else number(hi)
-    if lo < 0 or (hi is not None and hi < lo):
-        raise Unreadable("window: 0 <= min <= max")
+    if (lo < 0 and unknown != "eigenvalue") or (hi is not None and hi < max(lo, 0)):
+        raise Unreadable("window: 0 <= min <= max; for eigenvalue a problem's min may be negative")
     return lo, hi
 
 
@@ -261,10 +260,11 @@ NODE = one_of(
     "positive_definite", "negative_definite", "tail", "open", split=number, branch=place, farkas=list_of(weight),
     weighted_definite=list_of(weight), ldl=record(lower=LDL_FACTOR, upper=LDL_FACTOR), root=ROOT, support=SUPPORT)
 PIECE = record(max=end, anchor=Maybe(place), tree=list_of(NODE))
+PART = {
+    "window": record(min=number, max=Maybe(number)), "claims": list_of(CLAIM),
+    "complete_set": Maybe(record(condensation=Maybe(CONDENSATION), pieces=list_of(PIECE)))}
 CERTIFICATE = record(
-    format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu"),
-    window=record(min=number, max=Maybe(number)), claims=list_of(CLAIM),
-    complete_set=Maybe(record(condensation=Maybe(CONDENSATION), pieces=list_of(PIECE))))
+    format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu", "eigenvalue"), negative=Maybe(record(**PART)), **PART)
 
 
 class Matrix:
@@ -418,9 +418,11 @@ class Problem:
         _, self.unknown, window, pencil, system, _, _, *words = fields(doc, "format unknown", "window pencil system coordinates warnings name comment")
         for word in words:
             Maybe(text_of)(word)
-        if self.unknown not in ("lambda2", "mu") or (pencil is None) == (system is None):
-            raise Unreadable("unknown is lambda2 or mu; exactly one of pencil and system")
-        read_window(window)
+        if self.unknown not in ("lambda2", "mu", "eigenvalue") or (pencil is None) == (system is None):
+            raise Unreadable("unknown is lambda2, mu or eigenvalue; exactly one of pencil and system")
+        if self.unknown == "eigenvalue" and pencil is None:
+            raise Unreadable("eigenvalue is the unknown of a pencil only")
+        read_window(window, self.unknown)
         folder = os.path.dirname(os.path.abspath(path))
         self.system = None
         self.radii = None  # of K and M by rows, and the share of each variable (C, 5.22)
@@ -439,8 +441,8 @@ class Problem:
         if self.n == 0 or {len(a.rows), a.cols, len(b.rows), b.cols} != {self.n}:
             raise Unreadable("a and b must be square, of one order")
         free = [index(i, self.n) for i in sequence(obj.get("free", []))]
-        if len(set(free)) < len(free):
-            raise Unreadable("free: an index twice")
+        if len(set(free)) < len(free) or (free and self.unknown == "eigenvalue"):
+            raise Unreadable("free: an index twice, or one at all for eigenvalue")
         self.free, self.a, self.b = sorted(free), a.rows, b.rows
         ea, eb = a.entries(), b.entries()
         return ["pencil", " ".join(["free", *map(str, self.free)]), "a " + ea[0], *ea[1:], "b " + eb[0], *eb[1:]]
@@ -2720,29 +2722,50 @@ def check(problem_path, certificate_path):
     if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":
         raise Unreadable("format: mceip-certificate/1 was expected")
     CERTIFICATE(doc)
-    _, digest, unknown, window, claim_list, complete = fields(doc, "format problem_sha256 unknown window claims", "complete_set")
-    window = read_window(window)
+    _, digest, unknown, *of_file, negative = fields(doc, "format problem_sha256 unknown window claims", "complete_set negative")
+    parts = [(p, 1, *of_file)]
+    if negative is not None:
+        if unknown != "eigenvalue":
+            raise Unreadable("negative: only for eigenvalue")
+        reflected = SimpleNamespace(**{**vars(p), "b": [{j: -v for j, v in row.items()} for row in p.b]})
+        parts.append((reflected, -1, *fields(negative, "window claims", "complete_set")))
+    parts = [(pencil, sign, read_window(window), claims, complete) for pencil, sign, window, claims, complete in parts]
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.radii is None, "Radii: this kind of certificate speaks of one body")
     demand(unknown == p.unknown, "the unknown is not the problem's")
-    demand(sequence(claim_list) or complete is not None, "no claim")
-    rows, claims = integral_rows(p), []
-    Budget.claims = 2**43 + 2**34 * len(claim_list)
-    for c in claim_list:
-        if not isinstance(c, dict) or len(c) != 1:
-            raise Unreadable("a claim is an object with one key")
-        (kind, body), = c.items()
-        if kind not in CLAIMS:
-            raise Unreadable(f"unknown claim {kind[:40]!r}")
-        claims.append(CLAIMS[kind](p, rows, window, body))
+    demand(any(claims or complete is not None for *_, claims, complete in parts), "no claim")
+    texts, left_open = zip(*(check_part(*part) for part in parts))
+    return (3, "UNDECIDED: " + "; ".join(texts)) if any(left_open) else (0, "ACCEPTED: " + "; ".join(texts))
+
+
+def values(sign, lo, hi):
+    """The values t = sign s with lo <= s <= hi."""
+    if sign < 0:
+        return f"(-infinity, {-lo}]" if hi is None else f"[{-hi}, {-lo}]"
+    return f"[{lo}, infinity)" if hi is None else f"[{lo}, {hi}]"
+
+
+def check_part(p, sign, window, claim_list, complete):
+    """What is said of the values t = sign s, s in the window and p the pencil in s (C, 5.2), and the number of open leaves."""
+    try:
+        rows, claims = integral_rows(p), []
+        Budget.claims = 2**43 + 2**34 * len(claim_list)
+        for c in claim_list:
+            (kind, body), = c.items()
+            claims.append(CLAIMS[kind](p, rows, window, body))
+        cover = None if complete is None else complete_set(p, rows, window, claims, complete)
+    except Rejected as e:
+        raise Rejected(f"negative: {e}" if sign < 0 else e) from None
     text = f"{len(claims)} claim(s)"
-    if complete is None:
-        return 0, f"ACCEPTED: {text}"
-    solutions, families, left_open = complete_set(p, rows, window, claims, complete)
+    if p.unknown == "eigenvalue":
+        text = f"t in {values(sign, *window)}: {text}"
+    if cover is None:
+        return text, 0
+    solutions, families, left_open = cover
     if left_open:
-        return 3, f"UNDECIDED: {text}; {left_open} open leaves, {solutions} solution(s) outside them"
+        return f"{text}; {left_open} open leaves, {solutions} solution(s) outside them", left_open
     more = f" and {families} families" if families else ""
-    return 0, f"ACCEPTED: {text}; complete set of {solutions} solution(s){more}"
+    return f"{text}; complete set of {solutions} solution(s){more}", 0
 
 
 def main(arguments):
