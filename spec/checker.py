@@ -260,11 +260,11 @@ NODE = one_of(
     "positive_definite", "negative_definite", "tail", "open", split=number, branch=place, farkas=list_of(weight),
     weighted_definite=list_of(weight), ldl=record(lower=LDL_FACTOR, upper=LDL_FACTOR), root=ROOT, support=SUPPORT)
 PIECE = record(max=end, anchor=Maybe(place), tree=list_of(NODE))
-PART = {
+PART_FIELDS = {
     "window": record(min=number, max=Maybe(number)), "claims": list_of(CLAIM),
     "complete_set": Maybe(record(condensation=Maybe(CONDENSATION), pieces=list_of(PIECE)))}
 CERTIFICATE = record(
-    format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu", "eigenvalue"), negative=Maybe(record(**PART)), **PART)
+    format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu", "eigenvalue"), negative=Maybe(record(**PART_FIELDS)), **PART_FIELDS)
 
 
 class Matrix:
