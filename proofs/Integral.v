@@ -184,8 +184,11 @@ Lemma solutions_are (S : semantics R) lo hi c : all_solutions_are S lo hi c <->
   all_listed (solves S) (same S) (lies_in_region S) lo hi (solutions_in c)
     (unlisted (lies_in_region S) (families_of_set c) (open_regions c)).
 Proof.
-split=> -[l [sz sols vals pairs every]]; exists l; split=> // t v sol bt.
+split=> [[l [sz sols vals pairs] every]|[l [sz sols vals pairs every]]]; exists l;
+  try by split.
+  split=> // t v sol bt.
   by case: (every t v sol bt) => ?; [left | right; left | right; right].
+move=> t v sol bt.
 by case: (every t v sol bt) => [|[]] ?; [apply: Or31 | apply: Or32 | apply: Or33].
 Qed.
 
@@ -214,7 +217,7 @@ Qed.
 
 Lemma equivalent_meaning s : meaning_in P' s -> meaning_in P s.
 Proof.
-case: s => [lo hi l|lo hi c|c|from bound|from bound|//|//|points|//] /=.
+case: s => [lo hi l|lo hi c|c|from bound|from bound|//|//|points|//|//|//] /=.
 - by move=> hold; apply: List.Forall_impl hold => a; apply: equivalent_asserted.
 - by case=> all each; split=> [|f /each]; [apply: equivalent_solutions|apply: equivalent_family].
 - by case=> Q [is_Q all each]; exists Q; split=> //; apply: (same_pencils E).
@@ -276,10 +279,11 @@ have reactionE t x i : reaction (scaled_pencil c Q) t x i =
     toR (entry_scale c) * product (given_order Q) (given_a Q) (given_b Q) t x i.
   exact: scaled_product.
 split=> //=.
-- move=> t x; split=> -[t0 nonzero rows_f rows_s]; split=> // i i_in.
-  + by rewrite reactionE rows_f // mulr0.
-  + by rewrite reactionE; apply/(complementary_scaled _ _ m0R)/rows_s.
-  + have /eqP := rows_f i i_in; rewrite reactionE mulf_eq0 gt_eqF //= => /eqP.
+- move=> t x; split=> [[t0 [nonzero rows_f rows_s]]|[t0 nonzero rows_f rows_s]].
+    split=> // i i_in; first by rewrite reactionE rows_f // mulr0.
+    by rewrite reactionE; apply/(complementary_scaled _ _ m0R)/rows_s.
+  do 2!split=> //; move=> i i_in.
+    have /eqP := rows_f i i_in; rewrite reactionE mulf_eq0 gt_eqF //= => /eqP.
     by [].
   by have := rows_s i i_in; rewrite reactionE => /(complementary_scaled _ _ m0R).
 - by move=> v j _; exists 1; rewrite ?ltr01 // mul1r.
@@ -618,7 +622,8 @@ Definition integral_wellformed q :=
 Theorem scaled_equivalent (R : rcfType) c p q : scaled c p = Some q -> integral_wellformed q ->
   equivalent (semantics_of R p) (integral_semantics R q).
 Proof.
-case: p => [Q|B u|//|rows|//] /=; case: ifP => // ex [<-].
+case: p => [Q|Q|B u|//|rows|//] /=; case: ifP => // ex [<-].
+- by move=> _; apply: pencil_equivalent.
 - by move=> _; apply: pencil_equivalent.
 - case: ifP => [/nilP none|some] wf; first exact: system_equivalent.
   by apply: zero_equivalent; rewrite ?some.
@@ -630,5 +635,5 @@ Theorem scaled_meaning (R : rcfType) c p q s : scaled c p = Some q -> integral_w
 Proof.
 move=> is_q wf holds; have : meaning_in (semantics_of R p) s.
   by apply: equivalent_meaning holds; apply: scaled_equivalent is_q wf.
-by case: p is_q => [Q|B u|B radii|rows|B] //; case: s {holds}.
+by case: p is_q => [Q|Q|B u|B radii|rows|B] //; case: s {holds}.
 Qed.

@@ -37,6 +37,12 @@ Record rational_pencil := RationalPencil {
   given_b : seq rational_row;
   given_free : seq nat }.
 
+(* (A, -B) *)
+Definition reflected Q :=
+  let opposite (e : nat * rational) := (e.1, (- e.2.1, e.2.2))%Z in
+  RationalPencil (given_order Q) (given_a Q) [seq [seq opposite e | e <- row] | row <- given_b Q]
+    (given_free Q).
+
 (* The state before the event; a particle that slips has the sign S of its tangential reaction. *)
 Inductive contact := NotInContact | Sticking | Slipping of Z | ZeroInContact.
 
@@ -86,6 +92,8 @@ Record rational_body := RationalBody {
 
 Inductive problem :=
   | GivenPencil of rational_pencil
+  (* With values of either sign. *)
+  | GivenEigenvalue of rational_pencil
   | GivenSystem of rational_system & unknown
   | GivenMembers of rational_system & rational_radii
   | GivenPlain of seq rational_mcp_row
@@ -187,7 +195,8 @@ Definition exact_mcp_row r :=
    loads. *)
 Definition scaled p : option integral :=
   match p with
-  | GivenPencil Q => if exact_pencil Q then Some (PencilProblem (scaled_pencil Q)) else None
+  | GivenPencil Q | GivenEigenvalue Q =>
+      if exact_pencil Q then Some (PencilProblem (scaled_pencil Q)) else None
   | GivenSystem B u =>
       if exact_system B
       then Some (if nilp (with_zero B) then SystemProblem (scaled_system B) u
@@ -214,7 +223,7 @@ Definition pencil_of_integral q : pencil :=
    particle, then gap, right and left of each z particle. *)
 Definition complementarity p : seq nat :=
   match p with
-  | GivenPencil Q => [seq i <- iota 0 (given_order Q) | i \notin given_free Q]
+  | GivenPencil Q | GivenEigenvalue Q => [seq i <- iota 0 (given_order Q) | i \notin given_free Q]
   | GivenSystem B _ =>
       iota (count (fun d => d \notin held B) (iota 0 (degrees B)))
         (size (slipping B) + 3 * size (with_zero B))

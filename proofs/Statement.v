@@ -5,9 +5,10 @@
    is written (Rational.v), regions and places of values (Tree.v, Signs.v), and at infinity the
    pencil of a system (Points.v).
 
-   A problem is a pencil, a mechanical system, a plain mixed complementarity problem or a body under
-   loads.  The first two have *solutions*: a value t >= 0 and a vector, x of a pencil or a motion v
-   of a system.  The motion satisfies the conditions (9), for values of lambda^2 and mu:
+   A problem is a pencil, an eigenvalue problem, a mechanical system, a plain mixed complementarity
+   problem or a body under loads.  Pencils and systems have *solutions*: a value t >= 0 and a
+   vector, x of a pencil or a motion v of a system.  The motion satisfies the conditions (9), for values of
+   lambda^2 and mu:
 
        w = (K + lambda^2 M) v,    v != 0,    v = 0 at particles that stick,
        w = 0 at degrees of freedom of no particle in contact,
@@ -17,6 +18,10 @@
        n'v = 0,    S t'v <= 0,    S t'w + c mu n'w <= 0,    (S t'w + c mu n'w) (S t'v) = 0,
 
    and for each particle with zero reaction the lines of [zero_reaction] (ZeroReaction.v).
+
+   An eigenvalue problem is a pencil of which the value t may have either sign.  Statements speak of
+   its solutions with t <= 0 as of those of the pencil (A, -B), whose value is -t: in windows,
+   intervals, regions and places stands -t for t ([BelowZero], [negative_semantics]).
 
    A body with radii stands for its *members*; a statement about it is about each of them
    ([given_member], [member_moves]).
@@ -31,7 +36,7 @@
    variable has a *rate* (x_i; how fast a particle slips or opens) and a *row* (y_i), of which one
    is 0.  [meaning] says for each kind of statement what it means in a real closed field.
 
-   Pages: spec/certificates.md, 5.1, 5.15, 5.20; spec/zero-reaction.md, Z.1. *)
+   Pages: spec/certificates.md, 5.1, 5.2, 5.15, 5.20; spec/zero-reaction.md, Z.1. *)
 
 From Mceip Require Import Base Integers Sums Tree Cover Pencil System Signs Support Families
   ZeroReaction PlainMcp Points Rational.
@@ -77,7 +82,14 @@ Inductive statement :=
   | PointsSolve of seq mcp_point
   (* With this friction, and so much of each load, an equilibrium with the candidates in these
      states. *)
-  | InEquilibrium of rational & seq rational & seq stated.
+  | InEquilibrium of rational & seq rational & seq stated
+  (* Of an eigenvalue problem, about its solutions with values t <= 0: for t stands -t. *)
+  | BelowZero of statement
+  (* Of an eigenvalue problem: all solutions with -a <= t <= b, those with t <= 0, for which -t
+     stands, and those with t >= 0. *)
+  | AllOfBothSigns of point & point & solution_set & solution_set.
+
+Definition opposite (a : point) : point := (- a.1, a.2)%Z.
 
 Section Meaning.
 
@@ -119,14 +131,22 @@ Variable Q : rational_pencil.
 Notation y t x i := (product (given_order Q) (given_a Q) (given_b Q) t x i).
 Notation numbers := (complementarity (GivenPencil Q)).
 
-Definition pencil_solves t x :=
-  [/\ 0 <= t, exists2 i, i \in iota 0 (given_order Q) & x i != 0,
+(* The value t may have either sign. *)
+Definition eigenvalue_solves t x :=
+  [/\ exists2 i, i \in iota 0 (given_order Q) & x i != 0,
       forall i, i \in given_free Q -> y t x i = 0 &
       forall i, i \in numbers -> [/\ 0 <= x i, 0 <= y t x i & x i * y t x i = 0]].
 
-Definition pencil_semantics := Semantics numbers pencil_solves (multiples (given_order Q))
+Definition pencil_semantics := Semantics numbers (fun t x => 0 <= t /\ eigenvalue_solves t x)
+  (multiples (given_order Q))
   (fun x j => x (nth 0%N numbers j)) (fun t x j => y t x (nth 0%N numbers j)) None
   (fun Q' => exists c, scaled c (GivenPencil Q) = Some (PencilProblem Q')) None.
+
+(* The solutions with t <= 0, for which s = -t stands. *)
+Definition negative_semantics := Semantics numbers
+  (fun s x => 0 <= s /\ eigenvalue_solves (- s) x) (multiples (given_order Q))
+  (fun x j => x (nth 0%N numbers j)) (fun s x j => y (- s) x (nth 0%N numbers j)) None
+  (fun Q' => exists c, scaled c (GivenPencil (reflected Q)) = Some (PencilProblem Q')) None.
 
 End Pencil.
 
@@ -390,7 +410,7 @@ End Loads.
 
 Definition semantics_of p :=
   match p with
-  | GivenPencil Q => pencil_semantics Q
+  | GivenPencil Q | GivenEigenvalue Q => pencil_semantics Q
   | GivenSystem B u => system_semantics B u
   | GivenPlain rows => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
       (fun _ _ _ => 0) None (fun _ => False) (Some (solves_given rows))
@@ -420,17 +440,22 @@ Definition asserted_holds lo hi a := exists t v,
   [/\ solves P t v, between t lo hi, between t (asserted_from a) (asserted_to a) &
       has_signs (asserted_support a) (asserted_biactive a) t v].
 
-(* There are as many different solutions as listed, one in each region. *)
-Definition all_solutions_are lo hi (c : solution_set) := exists l : seq (R * (nat -> R)),
+(* As many different solutions as listed, one in each region. *)
+Definition different_solutions lo hi (c : solution_set) (l : seq (R * (nat -> R))) :=
   [/\ size l = size (solutions_in c),
       forall m, List.In m l -> solves P m.1 m.2 /\ between m.1 lo hi,
       List.Forall2 (fun y m => between m.1 (yield_from y) (yield_to y) /\
-                               lies_in_region (yield_region y) m.1 m.2) (solutions_in c) l,
-      List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same P m.2 m'.2)) l &
-      forall t v, solves P t v -> between t lo hi ->
-        [\/ exists2 m, List.In m l & t = m.1 /\ same P m.2 v,
-            exists2 f, List.In f (families_of_set c) & belongs_to f t v |
-            exists2 r, List.In r (open_regions c) & lies_in_region r t v]].
+                               lies_in_region (yield_region y) m.1 m.2) (solutions_in c) l &
+      List.ForallOrdPairs (fun m m' => ~ (m'.1 = m.1 /\ same P m.2 m'.2)) l].
+
+Definition is_among (c : solution_set) (l : seq (R * (nat -> R))) t v :=
+  [\/ exists2 m, List.In m l & t = m.1 /\ same P m.2 v,
+      exists2 f, List.In f (families_of_set c) & belongs_to f t v |
+      exists2 r, List.In r (open_regions c) & lies_in_region r t v].
+
+Definition all_solutions_are lo hi (c : solution_set) := exists2 l,
+  different_solutions lo hi c l &
+  forall t v, solves P t v -> between t lo hi -> is_among c l t v.
 
 (* Each value of the place has a solution of the family, and only one if the place is alone. *)
 Definition family_exists (f : family) :=
@@ -441,6 +466,14 @@ Definition family_exists (f : family) :=
        solves P t v' -> lies_in_region f.1 t v' -> same P v v').
 
 End Statements.
+
+(* All solutions of an eigenvalue problem with -a <= t <= b. *)
+Definition all_of_both_signs_are Q a b (below above : solution_set) := exists l l',
+  [/\ different_solutions (negative_semantics Q) zero a below l,
+      different_solutions (pencil_semantics Q) zero b above l' &
+      forall t x, eigenvalue_solves Q t x -> between t (opposite a) b ->
+        is_among (negative_semantics Q) below l (- t) x \/
+        is_among (pencil_semantics Q) above l' t x].
 
 (* Solutions at infinity of a pencil (Points.v); in regions and families their value is 0. *)
 Section Infinity.
@@ -480,7 +513,8 @@ Definition meaning_in (P : semantics) s :=
       forall mu, between mu from bound -> exists t v, 0 <= t /\ moves t mu v else False
   | PointsSolve points => if solved_by P is Some solved then
       points <> [::] /\ forall z, List.In z points -> solved (point_value R z) else False
-  | OneMotionOfRates _ _ | StableForFriction _ _ | InEquilibrium _ _ _ => False
+  | OneMotionOfRates _ _ | StableForFriction _ _ | InEquilibrium _ _ _ | BelowZero _
+  | AllOfBothSigns _ _ _ _ => False
   end.
 
 Definition meaning p s :=
@@ -497,6 +531,11 @@ Definition meaning p s :=
       forall mu, between mu from bound -> exists t v, 0 <= t /\ member_moves B k m c t mu v
   | GivenMembers _ _, _ => False
   | GivenLoads B, InEquilibrium mu amounts states => has_equilibrium B mu amounts states
+  | GivenEigenvalue Q, BelowZero s => meaning_in (negative_semantics Q) s
+  | GivenEigenvalue Q, AllOfBothSigns a b below above =>
+      [/\ all_of_both_signs_are Q a b below above,
+          forall f, List.In f (families_of_set below) -> family_exists (negative_semantics Q) f &
+          forall f, List.In f (families_of_set above) -> family_exists (pencil_semantics Q) f]
   | _, _ => meaning_in (semantics_of p) s
   end.
 

@@ -14,8 +14,8 @@
 From Mceip Require Import Base Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil
   Whole Claim EnclosedClaim Complete System Signs Support Families Lifted ZeroReaction PlainMcp
   Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical CriticalAnchors Presence
-  PresenceAnchors Points Rational Statement Integral Members Radii Equilibrium Unique Stability
-  Stable.
+  PresenceAnchors Points Rational Statement Integral Reflection Members Radii Equilibrium Unique
+  Stability Stable.
 
 (* A claim about the pencil; a motion with its forces; a box around a motion with particles of zero
    reaction. *)
@@ -52,7 +52,11 @@ Inductive evidence :=
   | Stable of point & point & elimination & stability & stable_end & stable_end
   | Points of seq mcp_point
   (* Friction, amounts and states, and what shows that there is an equilibrium in them. *)
-  | Equilibrium of rational & seq rational & seq stated & equilibrium_evidence.
+  | Equilibrium of rational & seq rational & seq stated & equilibrium_evidence
+  (* Of an eigenvalue problem: about the reflected pencil; a cover of this one and a cover of the
+     pencil itself. *)
+  | Reflected of evidence
+  | OfBothSigns of evidence & evidence.
 
 Inductive answered :=
   | Proved of statement
@@ -206,8 +210,23 @@ Definition scaled_answer p c (e : evidence) : answered :=
   then if integral_wellformed q then integral_answer q e else EvidenceRefused
   else EvidenceRefused.
 
+Definition below_zero (a : answered) := if a is Proved s then Proved (BelowZero s) else a.
+
+(* All solutions, where both windows begin at 0. *)
+Definition joined (below above : answered) : answered :=
+  match below, above with
+  | Proved (AllInWindow lo a c), Proved (AllInWindow lo' b c') =>
+      if same_point lo zero && same_point lo' zero then Proved (AllOfBothSigns a b c c')
+      else EvidenceRefused
+  | NotToldApart, _ | _, NotToldApart => NotToldApart
+  | _, _ => EvidenceRefused
+  end.
+
 Definition answer p c (e : evidence) : answered :=
   match p, e with
+  | GivenEigenvalue Q, Reflected e => below_zero (scaled_answer (GivenPencil (reflected Q)) c e)
+  | GivenEigenvalue Q, OfBothSigns e e' =>
+      joined (scaled_answer (GivenPencil (reflected Q)) c e) (scaled_answer (GivenPencil Q) c e')
   | GivenLoads B, Equilibrium mu amounts states w =>
       proved_if (check_equilibrium B mu amounts states (entry_scale c) w)
         (InEquilibrium mu amounts states)
@@ -428,7 +447,7 @@ Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
 case: e =>
   [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ? ?|? ? ? ? ? ?|? ? ? ? ?|
-   ? ? ? ? ? ?|points|????].
+   ? ? ? ? ? ?|points|? ? ? ?|?|? ?].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
     by case: ifP => // wf; apply: system_cover_sound.
@@ -448,7 +467,7 @@ case: e =>
 - case: p => // m; rewrite /= /proved_if; case: ifP => // ok [<-] /=.
   split; last exact: plain_mcp_sound.
   by case/and3P: ok => _ some _ none; rewrite none in some.
-by case: p.
+all: by case: p.
 Qed.
 
 Lemma scaled_sound p c e s : scaled_answer p c e = Proved s -> meaning R p s.
@@ -457,10 +476,32 @@ rewrite /scaled_answer; case is_q: (scaled c p) => [q|] //; case: ifP => // wf /
 exact: scaled_meaning is_q wf.
 Qed.
 
+(* Of an eigenvalue problem. *)
+Lemma below_sound Q c e s : scaled_answer (GivenPencil (reflected Q)) c e = Proved s ->
+  meaning_in (negative_semantics R Q) s.
+Proof. by move=> /scaled_sound; apply: equivalent_meaning; apply: reflected_equivalent. Qed.
+
+Lemma joined_sound Q c e e' s :
+  joined (scaled_answer (GivenPencil (reflected Q)) c e) (scaled_answer (GivenPencil Q) c e') =
+    Proved s ->
+  meaning R (GivenEigenvalue Q) s.
+Proof.
+case: scaled_answer (@below_sound Q c e) => [s1|?||];
+  case: scaled_answer (@scaled_sound (GivenPencil Q) c e') => [s2|?||] //; try by case: s1.
+move=> /(_ _ erefl) + /(_ _ erefl); case: s1 => //; case: s2 => // lo b above lo' a below.
+move=> [all' each'] [all each] /=; case: ifP => // /andP[/same_point_eq eq /same_point_eq eq'] [<-].
+by rewrite eq in all; rewrite eq' in all'; split=> //; apply: both_signs.
+Qed.
+
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
-case: p => [Q|B u|B radii|rows|B]; try exact: scaled_sound.
-- case: e => [???|???|???|???|????|??????|??????|lo hi w low high|lo hi w d low high|?|????];
+case: p => [Q|Q|B u|B radii|rows|B]; try exact: scaled_sound.
+- case: e => [???|???|???|???|????|??????|??????|?????|??????|?|????|e|e e'];
+    try exact: scaled_sound.
+    rewrite /= /below_zero; case eq: (scaled_answer _ _ _) => [s'|||] // [<-].
+    exact: below_sound eq.
+  exact: joined_sound.
+- case: e => [???|???|???|???|????|??????|??????|lo hi w low high|lo hi w d low high|?|????|?|??];
     try exact: scaled_sound.
     by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
   by rewrite /= /proved_if; case: ifP => // ok [<-] mu bm _; apply: (stability_sound ok bm).

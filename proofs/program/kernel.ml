@@ -5150,6 +5150,13 @@ type rational_row = (int * rational0) list
 type rational_pencil = { given_order : int; given_a : rational_row list;
                          given_b : rational_row list; given_free : int list }
 
+(** val reflected : rational_pencil -> rational_pencil **)
+
+let reflected q =
+  let opposite = fun e -> ((fst e), ((Big_int_Z.minus_big_int (fst (snd e))), (snd (snd e)))) in
+  { given_order = q.given_order; given_a = q.given_a; given_b =
+  (map0 (fun row -> map0 opposite row) q.given_b); given_free = q.given_free }
+
 type contact =
 | NotInContact
 | Sticking
@@ -5180,6 +5187,7 @@ type rational_body = { body_degrees : int; body_stiffness : rational_row list;
 
 type problem =
 | GivenPencil of rational_pencil
+| GivenEigenvalue of rational_pencil
 | GivenSystem of rational_system * unknown
 | GivenMembers of rational_system * rational_radii
 | GivenPlain of rational_mcp_row list
@@ -5354,6 +5362,8 @@ let exact_mcp_row c r =
 
 let scaled c = function
 | GivenPencil q -> if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
+| GivenEigenvalue q ->
+  if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
 | GivenSystem (b, u) ->
   if exact_system c b
   then Some
@@ -5379,6 +5389,10 @@ let pencil_of_integral = function
 
 let complementarity = function
 | GivenPencil q ->
+  filter (fun i ->
+    negb (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.given_free))))
+    (iota 0 q.given_order)
+| GivenEigenvalue q ->
   filter (fun i ->
     negb (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.given_free))))
     (iota 0 q.given_order)
@@ -5413,6 +5427,8 @@ type statement =
 | StableForFriction of point * point
 | PointsSolve of mcp_point list
 | InEquilibrium of rational0 * rational0 list * stated list
+| BelowZero of statement
+| AllOfBothSigns of point * point * solution_set * solution_set
 
 (** val is_held : rational_body -> int -> bool **)
 
@@ -6165,6 +6181,8 @@ type evidence =
 | Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
+| Reflected of evidence
+| OfBothSigns of evidence * evidence
 
 type answered =
 | Proved of statement
@@ -6357,10 +6375,48 @@ let scaled_answer p c e =
   | Some q -> if integral_wellformed q then integral_answer q e else EvidenceRefused
   | None -> EvidenceRefused
 
+(** val below_zero : answered -> answered **)
+
+let below_zero a = match a with
+| Proved s -> Proved (BelowZero s)
+| _ -> a
+
+(** val joined : answered -> answered -> answered **)
+
+let joined below1 above0 =
+  match below1 with
+  | Proved s ->
+    (match s with
+     | AllInWindow (lo, a, c) ->
+       (match above0 with
+        | Proved s0 ->
+          (match s0 with
+           | AllInWindow (lo', b, c') ->
+             if (&&) (same_point lo zero) (same_point lo' zero)
+             then Proved (AllOfBothSigns (a, b, c, c'))
+             else EvidenceRefused
+           | _ -> EvidenceRefused)
+        | ClaimRefused _ -> EvidenceRefused
+        | x -> x)
+     | _ -> (match above0 with
+             | NotToldApart -> NotToldApart
+             | _ -> EvidenceRefused))
+  | NotToldApart -> NotToldApart
+  | _ -> (match above0 with
+          | NotToldApart -> NotToldApart
+          | _ -> EvidenceRefused)
+
 (** val answer : problem -> scales -> evidence -> answered **)
 
 let answer p c e =
   match p with
+  | GivenEigenvalue q ->
+    (match e with
+     | Reflected e0 -> below_zero (scaled_answer (GivenPencil (reflected q)) c e0)
+     | OfBothSigns (e0, e') ->
+       joined (scaled_answer (GivenPencil (reflected q)) c e0)
+         (scaled_answer (GivenPencil q) c e')
+     | _ -> scaled_answer p c e)
   | GivenSystem (b, _) ->
     (match e with
      | DefiniteRates (lo, hi, w, low, high) ->

@@ -1739,6 +1739,8 @@ type rational_row = (int * rational0) list
 type rational_pencil = { given_order : int; given_a : rational_row list;
                          given_b : rational_row list; given_free : int list }
 
+val reflected : rational_pencil -> rational_pencil
+
 type contact =
 | NotInContact
 | Sticking
@@ -1769,6 +1771,7 @@ type rational_body = { body_degrees : int; body_stiffness : rational_row list;
 
 type problem =
 | GivenPencil of rational_pencil
+| GivenEigenvalue of rational_pencil
 | GivenSystem of rational_system * unknown
 | GivenMembers of rational_system * rational_radii
 | GivenPlain of rational_mcp_row list
@@ -1858,6 +1861,8 @@ type statement =
 | StableForFriction of point * point
 | PointsSolve of mcp_point list
 | InEquilibrium of rational0 * rational0 list * stated list
+| BelowZero of statement
+| AllOfBothSigns of point * point * solution_set * solution_set
 
 val is_held : rational_body -> int -> bool
 
@@ -2092,6 +2097,8 @@ type evidence =
 | Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
+| Reflected of evidence
+| OfBothSigns of evidence * evidence
 
 type answered =
 | Proved of statement
@@ -2132,5 +2139,9 @@ val proved_if : bool -> statement -> answered
 val integral_answer : integral -> evidence -> answered
 
 val scaled_answer : problem -> scales -> evidence -> answered
+
+val below_zero : answered -> answered
+
+val joined : answered -> answered -> answered
 
 val answer : problem -> scales -> evidence -> answered
