@@ -7,8 +7,8 @@
 
    A problem is a pencil, an eigenvalue problem, a mechanical system, a plain mixed complementarity
    problem or a body under loads.  Pencils and systems have *solutions*: a value t >= 0 and a
-   vector, x of a pencil or a motion v of a system.  The motion satisfies the conditions (9), for values of
-   lambda^2 and mu:
+   vector, x of a pencil or a motion v of a system.  The motion satisfies the conditions (9), for
+   values of lambda^2 and mu:
 
        w = (K + lambda^2 M) v,    v != 0,    v = 0 at particles that stick,
        w = 0 at degrees of freedom of no particle in contact,

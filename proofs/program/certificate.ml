@@ -88,7 +88,8 @@ type t = {
   unknown : string;
   window : Q.t * Q.t option;
   condensation : condensation option;
-  pieces : piece list }
+  pieces : piece list;
+  negative : t option  (* of values below 0: about the reflected pencil *) }
 
 (* A file mceip-critical/1.  Its anchors have two left matrices, its tail two factors. *)
 type critical_node =
@@ -336,13 +337,13 @@ let read_claim = function
 (* The window of a certificate says where it begins. *)
 let read_window = function
   | Object members as item when List.mem_assoc "min" members
-                             && List.assoc "min" members <> Null -> Problem.read_window item
+                             && List.assoc "min" members <> Null ->
+    let lo, hi = Problem.read_window ~eigenvalue:false item in
+    Option.get lo, hi
   | _ -> malformed "a window with min was expected"
 
-let read_complete document =
-  let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
-      ["complete_set"] document in
-  let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
+(* What a file and its part for values below 0 have in common. *)
+let read_part digest unknown negative field =
   let window = read_window (field "window") in
   let claims = List.map read_claim (list (field "claims")) in
   let condensation, pieces = match field "complete_set" with
@@ -351,7 +352,19 @@ let read_complete document =
       let field = fields ["pieces"] ["condensation"] set in
       (match field "condensation" with Null -> None | c -> Some (read_condensation c)),
       List.map read_piece (list (field "pieces")) in
-  { claims; digest; unknown; window; condensation; pieces }
+  { claims; digest; unknown; window; condensation; pieces; negative }
+
+let read_complete document =
+  let field = fields ["format"; "problem_sha256"; "unknown"; "window"; "claims"]
+      ["complete_set"; "negative"] document in
+  let digest = text (field "problem_sha256") and unknown = text (field "unknown") in
+  let negative = match field "negative" with
+    | Null -> None
+    | _ when unknown <> "eigenvalue" ->
+      malformed "negative: expected it with the unknown eigenvalue only, got %s" unknown
+    | part -> Some (read_part digest unknown None
+                      (fields ["window"; "claims"] ["complete_set"] part)) in
+  read_part digest unknown negative field
 
 let read_critical_condensation ~tail:allowed item =
   let field = fields ["sigma"; "stiffness_factor"; "mass_sigma"; "anchors"]

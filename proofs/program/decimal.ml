@@ -34,5 +34,5 @@ let show up x =
     else Printf.sprintf "%se-%d" (Z.to_string n) k
   end
 
-let lower = show false
-let upper = show true
+let lower x = if Q.sign x < 0 then "-" ^ show true (Q.neg x) else show false x
+let upper x = if Q.sign x < 0 then "-" ^ show false (Q.neg x) else show true x

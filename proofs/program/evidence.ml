@@ -80,8 +80,13 @@ let in_window (certificate : Certificate.t) (a, b) =
 
 let no_witness what = Elaborate.No_witness what
 
+(* A refusal of the part for values below 0. *)
+let of_negative = function
+  | Rejected reason -> Rejected ("negative: " ^ reason)
+  | other -> other
+
 (* The verdict where the kernel refuses evidence. *)
-let refusal (evidence : Kernel.evidence) (answer : Kernel.answered) =
+let rec refusal (evidence : Kernel.evidence) (answer : Kernel.answered) =
   match evidence, answer with
   | _, NotToldApart ->
     Problem.Not_verified "regions that may hold the same solution, or a value beside the window"
@@ -96,6 +101,7 @@ let refusal (evidence : Kernel.evidence) (answer : Kernel.answered) =
   | Equilibrium (_, _, _, BoxAround _), _ -> no_witness "an equilibrium in a box"
   | Equilibrium _, _ -> Rejected "the kernel refuses the equilibrium"
   | Stable _, _ -> Rejected "the kernel refuses the evidence of stability"
+  | Reflected part, _ -> of_negative (refusal part answer)
   | _ -> Rejected "the kernel refuses the tree"
 
 let window_of (certificate : Certificate.t) =
@@ -485,13 +491,18 @@ let question_of problem pencil certificate known_claims =
   let lo, hi = window_of certificate in
   { problem; pencil; certificate; slip; slip_list; lo; hi; known_claims }
 
-(* Of the claims and of the cover, where there are some. *)
+(* What makes the evidence of the claims and of the cover, where there are some. *)
+type parts = { of_claims : (unit -> Kernel.evidence) option;
+               of_cover : (unit -> Kernel.evidence) option }
+
+let list_of parts = List.filter_map Fun.id [parts.of_claims; parts.of_cover]
+
 let parts (certificate : Certificate.t) claims cover =
   let claims () = timed "claims" (fun () ->
       let lo, hi = window_of certificate in
       Kernel.ClaimsIn (lo, hi, claims ())) in
-  (if certificate.claims = [] then [] else [claims])
-  @ (if certificate.pieces = [] then [] else [cover])
+  { of_claims = if certificate.claims = [] then None else Some claims;
+    of_cover = if certificate.pieces = [] then None else Some cover }
 
 let zero_parts (problem : Scaling.t) (certificate : Certificate.t) zero unknown =
   let cover () =
@@ -639,23 +650,62 @@ let require_question (problem : Scaling.t) (certificate : Certificate.t) =
   if certificate.unknown <> problem.unknown then
     raise (Rejected "the unknown is not the problem's")
 
-let require_window holds wanted (certificate : Certificate.t) =
+(* The windows of the certificate of which [Sentences.windows] will speak. *)
+let windows (certificate : Certificate.t) =
+  let sides = List.map (fun c -> Sentences.Below, c) (Option.to_list certificate.negative)
+              @ [Above, certificate] in
+  let has_cover (_, (c : Certificate.t)) = c.pieces <> [] in
+  let has_claims (_, (c : Certificate.t)) = c.claims <> [] in
+  let said = if List.exists has_cover sides then List.filter has_cover sides
+    else List.filter has_claims sides in
+  Sentences.join (List.map (fun (side, (c : Certificate.t)) ->
+      Sentences.on_side side c.window) said)
+
+let require_window holds wanted certificate =
   if not holds then
     raise (Rejected (Printf.sprintf "window: expected %s, got %s" wanted
-                       (Sentences.show_window certificate.window)))
+                       (String.concat " and "
+                          (List.map Sentences.show_window (windows certificate)))))
+
+let start_anew () =
+  Elaborate.start_anew ();
+  Supports.work := 0;
+  Critical.kept := []
+
+(* Of an eigenvalue problem: each part has limits of its own.  Covers of both parts that begin at 0
+   become one statement. *)
+let of_both_signs (above : parts) (below : parts) ~meet =
+  let anew make () = start_anew (); make () in
+  let below_zero make () =
+    try Kernel.Reflected (anew make ()) with refused -> raise (of_negative refused) in
+  let claims = List.map anew (Option.to_list above.of_claims)
+               @ List.map below_zero (Option.to_list below.of_claims) in
+  let covers = match above.of_cover, below.of_cover with
+    | Some cover, Some cover' when meet ->
+      [fun () -> match below_zero cover' (), anew cover () with
+         | Reflected part, part' -> Kernel.OfBothSigns (part, part')
+         | _ -> assert false]
+    | cover, cover' ->
+      List.map anew (Option.to_list cover) @ List.map below_zero (Option.to_list cover') in
+  claims @ covers
 
 (* The parts of the evidence, each as a function that makes it. *)
 let complete (problem : Scaling.t) (certificate : Certificate.t) =
   require_one_body problem certificate.digest;
   require_question problem certificate;
-  if certificate.pieces = [] && certificate.claims = [] then raise (Rejected "no claim");
+  if windows certificate = [] then raise (Rejected "no claim");
   let cover_of q =
     if not (depends_on_value q.pencil certificate) then of_constant q
     else if q.lo = q.hi then of_value q
     else of_varying q in
-  match problem.question with
-  | ZeroProblem (zero, unknown) -> zero_parts problem certificate zero unknown
-  | _ -> pencil_parts problem certificate cover_of
+  match problem.question, certificate.negative with
+  | ZeroProblem (zero, unknown), _ -> list_of (zero_parts problem certificate zero unknown)
+  | _, None -> list_of (pencil_parts problem certificate cover_of)
+  | _, Some negative ->
+    let begins_at_zero (c : Certificate.t) = Q.sign (fst c.window) = 0 in
+    of_both_signs (pencil_parts problem certificate cover_of)
+      (pencil_parts (Scaling.reflected problem) negative cover_of)
+      ~meet:(begins_at_zero certificate && begins_at_zero negative)
 
 (* Where the leaves of a cover say that T(mu) is positive definite, for a body with friction and
    without particles of zero reaction: a factor at both ends of the window. *)
@@ -685,10 +735,12 @@ let infinity (problem : Scaling.t) (certificate : Certificate.t) =
   (match problem.question with
    | ZeroProblem _ -> Problem.not_verified "infinity with zero reaction"
    | _ -> ());
+  if problem.unknown = "eigenvalue" then
+    Problem.not_verified "infinity with the unknown eigenvalue";
   let reversed = Scaling.reversed problem (pencil_of problem) in
   require_question reversed certificate;
   if certificate.pieces = [] then raise (Rejected "no complete set");
-  require_window (certificate.window = reversed.window) "[0, 0]" certificate;
+  require_window (certificate.window = (Q.zero, Some Q.zero)) "[0, 0]" certificate;
   let cover_of q =
     let claims, cover, supports = at_value q in
     Kernel.CoverAtInfinity (claims, cover, supports) in
@@ -698,10 +750,6 @@ let infinity (problem : Scaling.t) (certificate : Certificate.t) =
     | Proved _ -> ()
     | answer -> raise (refusal evidence answer) in
   match pencil_parts reversed certificate cover_of with
-  | [claims; cover] -> [fun () -> prove_claims claims; cover ()]
-  | parts -> parts
-
-let start_anew () =
-  Elaborate.start_anew ();
-  Supports.work := 0;
-  Critical.kept := []
+  | { of_claims = Some claims; of_cover = Some cover } ->
+    [fun () -> prove_claims claims; cover ()]
+  | parts -> list_of parts

@@ -8,7 +8,7 @@
    for the problem that was read; [answer_sound] (Verdict.v) says that they are true.  Trusted. *)
 
 (* What is asked of the certificate, beside its problem. *)
-type demand = Anything | Window of (Q.t * Q.t option) | Infinity
+type demand = Anything | Window of (Q.t option * Q.t option) | Infinity
 
 let prove given scales make =
   let evidence = make () in
@@ -19,17 +19,16 @@ let prove given scales make =
 (* Print the accepted question and its witness as a Coq file instead of the verdict. *)
 let as_coq = ref false
 
-let answers demanded (statement : Kernel.statement) =
-  match demanded, statement with
-  | Anything, _ | Infinity, AllAtInfinity _ -> true
-  | Window window, (EachExists (lo, hi, _) | AllInWindow (lo, hi, _)) ->
-    Sentences.(covers (window_of lo hi) window)
-  | _ -> false
+let answers demanded (statements : Kernel.statement list) =
+  match demanded, statements with
+  | Anything, _ | Infinity, [AllAtInfinity _] -> true
+  | Window window, _ -> Sentences.(covers (windows statements) window)
+  | Infinity, _ -> false
 
 (* Proves all parts, then prints.  The exit code. *)
 let verify_parts demanded (problem : Problem.t) (integers : Scaling.t) parts =
   let proved = List.map (prove problem.given integers.scales) parts in
-  if not (List.for_all (fun (_, statement) -> answers demanded statement) proved) then
+  if not (answers demanded (List.map snd proved)) then
     raise (Evidence.Rejected "the statement does not answer what is demanded");
   match List.rev proved with
   | (evidence, statement) :: _ when !as_coq ->
@@ -51,6 +50,13 @@ let refuse_window demanded kind =
   Option.iter (fun option ->
       Json.malformed "%s: expected it with mceip-certificate/1 only, got %s" option kind) option
 
+let window_shape = "a,b with 0 <= a <= b (b may be inf; for eigenvalue a negative or -inf)"
+
+let require_window_of (problem : Problem.t) (lo, _) =
+  let below_zero = Option.fold lo ~none:true ~some:(fun q -> Q.sign q < 0) in
+  if below_zero && problem.unknown <> "eigenvalue" then
+    Json.malformed "--window: expected %s" window_shape
+
 let verify_eigenproblem demanded document problem_path certificate_path =
   let problem = Evidence.timed "problem" (fun () -> Problem.read problem_path document) in
   let certificate =
@@ -59,7 +65,8 @@ let verify_eigenproblem demanded document problem_path certificate_path =
   let code = verify_parts demanded problem integers (match certificate, demanded with
       | Complete certificate, Infinity -> Evidence.infinity integers certificate
       | Complete certificate, Window window ->
-        Evidence.require_window (Sentences.covers certificate.window window)
+        require_window_of problem window;
+        Evidence.require_window (Sentences.covers (Evidence.windows certificate) window)
           ("one that covers " ^ Sentences.show_window window) certificate;
         Evidence.complete integers certificate
       | Complete certificate, Anything -> Evidence.complete integers certificate
@@ -98,14 +105,14 @@ let verify_loads problem_path document certificate_path =
      | _ -> invalid_arg "a statement of another kind")
   | _ -> Json.malformed "format: mceip-equilibrium/1 was expected"
 
-(* a,b with 0 <= a <= b; b may be inf or empty. *)
+(* a,b with a <= b; a may be -inf, b may be inf or empty. *)
 let window_of text =
-  let bad () = Json.malformed "--window: a,b with 0 <= a <= b was expected (b may be inf)" in
+  let bad () = Json.malformed "--window: expected %s" window_shape in
   match List.map String.trim (String.split_on_char ',' text) with
   | [a; b] ->
-    let lo = Json.rational_of_spelling a in
+    let lo = if a = "-inf" then None else Some (Json.rational_of_spelling a) in
     let hi = if b = "" || b = "inf" then None else Some (Json.rational_of_spelling b) in
-    if Q.sign lo < 0 || (match hi with Some h -> Q.lt h lo | None -> false) then bad ();
+    (match lo, hi with Some l, Some h when Q.lt h l -> bad () | _ -> ());
     lo, hi
   | _ -> bad ()
 

@@ -13,7 +13,7 @@ type matrix = { rows : int; cols : int; entries : (int * Q.t) list array }
 type t = {
   unknown : string;
   friction : Q.t option;  (* where the unknown is lambda2 and the problem is a system *)
-  window : Q.t * Q.t option;
+  window : Q.t option * Q.t option;  (* without an end where it is infinite *)
   digest : string;
   given : Kernel.problem }
 
@@ -97,16 +97,19 @@ let point_of q = Q.num q, Q.den q
 let upper_point = function Some q -> point_of q | None -> Kernel.infinity
 let value_of (p, q) = Q.make p q
 
-let read_window item =
-  match item with
-  | Null -> Q.zero, None
-  | _ ->
-    let field = fields [] ["min"; "max"] item in
-    let lo = match field "min" with Null -> Q.zero | v -> rational v in
-    let hi = match field "max" with Null -> None | v -> Some (rational v) in
-    if Q.lt lo Q.zero || (match hi with Some h -> Q.lt h lo | None -> false) then
-      malformed "0 <= min <= max";
-    lo, hi
+(* Of an eigenvalue problem the window may begin below 0, or have no beginning. *)
+let read_window ~eigenvalue item =
+  let field = if item = Null then fun _ -> Null else fields [] ["min"; "max"] item in
+  let end_of key = match field key with Null -> None | v -> Some (rational v) in
+  let hi = end_of "max" in
+  let lo = match end_of "min" with
+    | None when not eigenvalue -> Some Q.zero
+    | lo -> lo in
+  let ends_below q = Option.fold ~none:false ~some:(fun h -> Q.lt h q) hi in
+  if ends_below (Option.value lo ~default:Q.zero) || ends_below Q.zero
+  || (not eigenvalue && Option.fold ~none:false ~some:(fun q -> Q.sign q < 0) lo) then
+    malformed "%s" (if eigenvalue then "min <= max, 0 <= max" else "0 <= min <= max");
+  lo, hi
 
 (* The lines of a matrix as one text. *)
 let canonical_matrix name m =
@@ -126,7 +129,7 @@ let pencil_lines free a b =
 let rational_rows m =
   List.map (List.map (fun (j, v) -> j, point_of v)) (Array.to_list m.entries)
 
-let read_pencil folder item =
+let read_pencil folder unknown item =
   let field = fields ["a"; "b"] ["free"] item in
   let a = read_matrix folder (field "a") and b = read_matrix folder (field "b") in
   let n = a.rows in
@@ -135,9 +138,12 @@ let read_pencil folder item =
   let free = List.map (index n) (list_or_none "free" item) in
   let sorted = List.sort_uniq compare free in
   if List.length sorted < List.length free then malformed "an index of free twice";
+  if unknown = "eigenvalue" && free <> [] then malformed "free: no index for eigenvalue";
   let pencil = { Kernel.given_order = n; given_a = rational_rows a; given_b = rational_rows b;
                  given_free = sorted } in
-  pencil_lines sorted a b, Kernel.GivenPencil pencil, None
+  let given = if unknown = "eigenvalue" then Kernel.GivenEigenvalue pencil
+    else GivenPencil pencil in
+  pencil_lines sorted a b, given, None
 
 let plain_frame = (Q.one, Q.zero), (Q.zero, Q.one)
 
@@ -317,12 +323,14 @@ let read path document =
   List.iter (fun key -> match field key with
       | Null -> () | v -> ignore (text v)) ["name"; "comment"];
   let unknown = text (field "unknown") in
-  if unknown <> "lambda2" && unknown <> "mu" then malformed "unknown is lambda2 or mu";
-  let window = read_window (field "window") in
+  let eigenvalue = unknown = "eigenvalue" in
+  if unknown <> "lambda2" && unknown <> "mu" && not eigenvalue then
+    malformed "unknown is lambda2, mu or eigenvalue";
+  let window = read_window ~eigenvalue (field "window") in
   let folder = Filename.dirname path in
   let lines, given, friction = match field "pencil", field "system" with
-    | pencil, Null when pencil <> Null -> read_pencil folder pencil
-    | Null, system when system <> Null -> read_system folder unknown system
-    | _ -> malformed "exactly one of pencil and system" in
+    | pencil, Null when pencil <> Null -> read_pencil folder unknown pencil
+    | Null, system when system <> Null && not eigenvalue -> read_system folder unknown system
+    | _ -> malformed "exactly one of pencil and system; a pencil for eigenvalue" in
   let digest = digest_of (canonical unknown lines) in
   { unknown; friction; window; digest; given }

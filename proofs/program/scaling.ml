@@ -9,7 +9,6 @@ type members = { radii : Kernel.part_radii; shares : Z.t list; share_unit : Z.t 
 type t = {
   unknown : string;
   digest : string;
-  window : Q.t * Q.t option;
   scales : Kernel.scales;
   question : Kernel.integral;
   members : members option;  (* of a body with radii; the question is then about the middle *)
@@ -49,7 +48,7 @@ let of_problem (problem : Problem.t) =
       Kernel.GivenSystem (s, unknown), Some radii, radii.radii_of_stiffness @ radii.radii_of_mass
     | given -> given, None, [] in
   let scales, friction = match given with
-    | GivenPencil p ->
+    | GivenPencil p | GivenEigenvalue p ->
       { Kernel.entry_scale = of_rows (of_rows Z.one p.given_a) p.given_b;
         length_scale = Z.one }, Z.one
     | GivenSystem (s, unknown) ->
@@ -63,8 +62,7 @@ let of_problem (problem : Problem.t) =
   let length = scales.length_scale in
   let common = Z.mul scales.entry_scale length in
   let question = scaled scales given in
-  { unknown = problem.unknown; digest = problem.digest; window = problem.window; scales;
-    question; members = Option.map (members_of scales question) radii; common;
+  { unknown = problem.unknown; digest = problem.digest; scales; question; members = Option.map (members_of scales question) radii; common;
     slip_common = Z.mul common (Z.mul length friction) }
 
 let of_plain rows =
@@ -86,4 +84,11 @@ let reversed problem (pencil : Kernel.pencil) =
   let lines =
     Problem.pencil_lines pencil.free (matrix reverse.rows_a) (matrix reverse.rows_b) in
   { problem with digest = Problem.(digest_of (canonical problem.unknown lines));
-                 question = PencilProblem reverse; window = Q.zero, Some Q.zero }
+                 question = PencilProblem reverse }
+
+(* The reflected pencil (certificates.md, 5.2, Values below 0) of an eigenvalue problem. *)
+let reflected problem = match problem.question with
+  | Kernel.PencilProblem pencil ->
+    let rows_b = List.map (List.map (fun (j, v) -> j, Z.neg v)) pencil.rows_b in
+    { problem with question = PencilProblem { pencil with rows_b } }
+  | _ -> invalid_arg "values below 0 of a system"

@@ -7,23 +7,42 @@
 
 let show_point (p, q) = if Z.sign q = 0 then "infinity" else Q.to_string (Q.make p q)
 
-let show_interval lo hi =
-  Printf.sprintf "[%s, %s%s" (show_point lo) (show_point hi)
-    (if Z.sign (snd hi) = 0 then ")" else "]")
-
-let show_window (lo, hi) = show_interval (Problem.point_of lo) (Problem.upper_point hi)
+(* A window has no end where it is infinite. *)
+let show_window (lo, hi) =
+  Option.fold lo ~none:"(-infinity" ~some:(fun q -> "[" ^ Q.to_string q) ^ ", "
+  ^ Option.fold hi ~none:"infinity)" ~some:(fun q -> Q.to_string q ^ "]")
 
 let show_list indices = "[" ^ String.concat ", " (List.map string_of_int indices) ^ "]"
+
+(* Of an eigenvalue problem: statements about values below 0 have -t for t. *)
+type side = Above | Below
+
+(* The values t of a side between these ends. *)
+let values side (lo, hi) = match side with
+  | Above -> lo, hi
+  | Below -> Q.neg hi, Q.neg lo
+
+let on_side side (lo, hi) = match side with
+  | Above -> Some lo, hi
+  | Below -> Option.map Q.neg hi, Some (Q.neg lo)
 
 let window_of lo hi =
   Problem.value_of lo, if Z.sign (snd hi) = 0 then None else Some (Problem.value_of hi)
 
-(* Does the first window contain the second? *)
-let covers (lo, hi) (lo', hi') =
-  Q.leq lo lo' && (match hi, hi' with
-      | None, _ -> true
-      | Some _, None -> false
-      | Some h, Some h' -> Q.geq h h')
+let show_interval ?(side = Above) lo hi = show_window (on_side side (window_of lo hi))
+
+(* One window in place of two that meet at 0. *)
+let join = function
+  | [(lo, Some q); (Some q', hi)] when Q.sign q = 0 && Q.sign q' = 0 -> [lo, hi]
+  | windows -> windows
+
+(* Does one of the windows contain this one? *)
+let covers windows (lo', hi') =
+  let reaches leq ends ends' = match ends, ends' with
+    | None, _ -> true
+    | Some _, None -> false
+    | Some e, Some e' -> leq e e' in
+  List.exists (fun (lo, hi) -> reaches Q.leq lo lo' && reaches Q.geq hi hi') windows
 
 let verdict word statement named = Printf.printf "%s, VERIFIED: %s (%s)" word statement named
 
@@ -34,10 +53,10 @@ let name_of (problem : Problem.t) =
     | Some mu -> Printf.sprintf "friction %s, " (Q.to_string mu) in
   Printf.sprintf "%s, %sproblem %s" problem.unknown friction problem.digest
 
-(* The verdict on a statement about solutions in a window of the problem. *)
-let verdict_in_window (problem : Problem.t) lo hi word statement =
+(* The verdict on a statement about solutions in windows of the problem. *)
+let verdict_in_windows (problem : Problem.t) windows word statement =
   verdict word statement (name_of problem);
-  if not (covers (window_of lo hi) problem.window) then
+  if not (covers windows problem.window) then
     Printf.printf "; NOT the whole window %s of the problem" (show_window problem.window);
   print_newline ()
 
@@ -71,10 +90,10 @@ let present problem low high =
     (Printf.sprintf "a solution with lambda2 >= 0 for every friction in %s%s"
        (show_interval low high) (of_members problem))
 
-let claims_only problem lo hi =
-  verdict_in_window problem lo hi "ACCEPTED"
+let claims_only problem windows =
+  verdict_in_windows problem windows "ACCEPTED"
     (Printf.sprintf "claims, each has a solution in %s; nothing said about others"
-       (show_interval lo hi))
+       (String.concat " or " (List.map show_window windows)))
 
 let points digest =
   verdict "ACCEPTED" "points, each solves the problem; nothing said about others"
@@ -104,10 +123,10 @@ let equilibrium digest (mu, amounts, states) =
       (S = -1), o free, z in contact without reaction; loads " ^ digest);
   print_newline ()
 
-let claim (problem : Problem.t) (claim : Kernel.asserted) =
-  let show point = Q.to_string (Problem.value_of point) in
-  Printf.printf "claim: %s in [%s, %s], slip %s\n" problem.unknown (show claim.asserted_from)
-    (show claim.asserted_to) (show_list claim.asserted_support)
+let claim (problem : Problem.t) side (claim : Kernel.asserted) =
+  Printf.printf "claim: %s in %s, slip %s\n" problem.unknown
+    (show_interval ~side claim.asserted_from claim.asserted_to)
+    (show_list claim.asserted_support)
 
 (* The variables of a region in this state, as positions among the complementarity variables. *)
 let in_state state (region : Kernel.region) =
@@ -117,18 +136,23 @@ let in_state state (region : Kernel.region) =
 let moving = in_state Kernel.Moving
 let resting = in_state Kernel.Resting
 
-let show_value (v : Kernel.value) =
-  if Z.equal v.value_from v.value_to then show_point (Kernel.start_of v)
-  else
-    let decimal rounded point = rounded (Problem.value_of point) in
-    Printf.sprintf "a value in [%s, %s]" (decimal Decimal.lower (Kernel.start_of v))
-      (decimal Decimal.upper (Kernel.end_of v))
+let decimals side lo hi =
+  let lo, hi = values side (Problem.value_of lo, Problem.value_of hi) in
+  Printf.sprintf "[%s, %s]" (Decimal.lower lo) (Decimal.upper hi)
 
-let show_place unknown = function
-  | Kernel.PointAt v -> Printf.sprintf "%s = %s" unknown (show_value v)
-  | Between (v, v') ->
-    Printf.sprintf "every %s between %s and %s" unknown (show_value v) (show_value v')
-  | Above v -> Printf.sprintf "every %s above %s" unknown (show_value v)
+let show_value side (v : Kernel.value) =
+  let first = Problem.value_of (Kernel.start_of v) in
+  if Z.equal v.value_from v.value_to then Q.to_string (fst (values side (first, first)))
+  else "a value in " ^ decimals side (Kernel.start_of v) (Kernel.end_of v)
+
+let show_place unknown side place =
+  let show = show_value side in
+  match place, side with
+  | Kernel.PointAt v, _ -> Printf.sprintf "%s = %s" unknown (show v)
+  | Between (v, v'), Above | Between (v', v), Below ->
+    Printf.sprintf "every %s between %s and %s" unknown (show v) (show v')
+  | Above v, Above -> Printf.sprintf "every %s above %s" unknown (show v)
+  | Above v, Below -> Printf.sprintf "every %s below %s" unknown (show v)
 
 (* Two leaves share the value at their common end: it is listed once, as alone if one says so. *)
 let listed_once families =
@@ -148,41 +172,46 @@ let listed_once families =
 
 let shown_regions = 20
 
-(* How many solutions, whether there are families, and where every other solution is.  The families
-   are not counted: one may be cut into several by the leaves of the tree. *)
-let count_and_others place (all : Kernel.solution_set) =
-  let none = all.solutions_in = [] && all.families_of_set = [] in
-  let count = match List.length all.solutions_in with
-    | 0 when none -> "no solution"
-    | 1 -> "1 solution"
-    | n -> Printf.sprintf "%d solutions" n in
-  let families_too = if all.families_of_set = [] then "" else " and families of them" in
-  let others = if none then "" else ", and no other" in
-  let outside = match List.length all.open_regions with
+let is_closed (all : Kernel.solution_set) = all.open_regions = []
+let is_empty (all : Kernel.solution_set) = all.solutions_in = [] && all.families_of_set = []
+
+(* How many solutions in each place, whether there are families, and where every other solution is.
+   The families are not counted: one may be cut into several by the leaves of the tree. *)
+let count_and_others sets =
+  let count (place, (all : Kernel.solution_set)) =
+    let number = match List.length all.solutions_in with
+      | 0 when is_empty all -> "no solution"
+      | 1 -> "1 solution"
+      | n -> Printf.sprintf "%d solutions" n in
+    let families_too = if all.families_of_set = [] then "" else " and families of them" in
+    Printf.sprintf "%s%s %s" number families_too place in
+  let others = if List.for_all (fun (_, all) -> is_empty all) sets then "" else ", and no other" in
+  let left_open (_, (all : Kernel.solution_set)) = List.length all.open_regions in
+  let outside = match List.fold_left (+) 0 (List.map left_open sets) with
     | 0 -> ""
     | 1 -> " outside 1 open region"
     | n -> Printf.sprintf " outside %d open regions" n in
-  Printf.sprintf "%s%s %s%s%s" count families_too place others outside
+  String.concat ", " (List.map count sets) ^ others ^ outside
 
-let word_of left_open = if left_open = [] then "ACCEPTED" else "UNDECIDED"
+(* Every other solution may lie in a region that is left open. *)
+let word_of sets = if List.for_all is_closed sets then "ACCEPTED" else "UNDECIDED"
+let exit_code sets = if List.for_all is_closed sets then 0 else 3
 
 let names slip positions = show_list (List.map (fun i -> slip.(i)) positions)
 
-let cover (problem : Problem.t) slip lo hi (all : Kernel.solution_set) =
-  let unknown = problem.unknown in
-  verdict_in_window problem lo hi (word_of all.open_regions)
-    (count_and_others ("in " ^ show_interval lo hi) all);
+(* Lists are in the order of the values t. *)
+let ascending side l = match side with Above -> l | Below -> List.rev l
 
+let say_set unknown slip (side, _, (all : Kernel.solution_set)) =
   List.iter (fun (y : Kernel.yield) ->
-      Printf.printf "solution: %s in [%s, %s], slip %s\n" unknown
-        (Decimal.lower (Problem.value_of y.yield_from))
-        (Decimal.upper (Problem.value_of y.yield_to))
-        (names slip (moving y.yield_region))) (List.rev all.solutions_in);
+      Printf.printf "solution: %s in %s, slip %s\n" unknown
+        (decimals side y.yield_from y.yield_to)
+        (names slip (moving y.yield_region))) (ascending side (List.rev all.solutions_in));
   List.iter (fun (region, (h : Kernel.holding)) ->
-      Printf.printf "family: %s, slip %s, %s at each\n" (show_place unknown h.held_place)
+      Printf.printf "family: %s, slip %s, %s at each\n" (show_place unknown side h.held_place)
         (names slip (moving region))
         (if h.held_alone then "one solution" else "a solution"))
-    (listed_once all.families_of_set);
+    (ascending side (listed_once all.families_of_set));
 
   let undecided region =
     let decided = moving region @ resting region in
@@ -190,13 +219,14 @@ let cover (problem : Problem.t) slip lo hi (all : Kernel.solution_set) =
   List.iteri (fun k (r : Kernel.region) ->
       if k < shown_regions then
         Printf.printf "open: %s in %s, moving %s, undecided %s\n" unknown
-          (show_interval r.lower r.upper) (names slip (moving r)) (names slip (undecided r)))
-    all.open_regions;
+          (show_interval ~side r.lower r.upper) (names slip (moving r))
+          (names slip (undecided r)))
+    (ascending side all.open_regions);
   let more = List.length all.open_regions - shown_regions in
   if more > 0 then Printf.printf "open: %d more regions (see the certificate)\n" more
 
 let at_infinity (problem : Problem.t) slip (all : Kernel.solution_set) =
-  verdict (word_of all.open_regions) (count_and_others "at infinity" all) (name_of problem);
+  verdict (word_of [all]) (count_and_others ["at infinity", all]) (name_of problem);
   print_newline ();
   List.iter (fun (y : Kernel.yield) ->
       Printf.printf "solution: at infinity, slip %s\n" (names slip (moving y.yield_region)))
@@ -206,26 +236,71 @@ let at_infinity (problem : Problem.t) slip (all : Kernel.solution_set) =
         (if h.held_alone then "one solution" else "a solution"))
     (listed_once all.families_of_set);
   List.iter (fun r -> Printf.printf "open: at infinity, moving %s\n" (names slip (moving r)))
-    all.open_regions
+    all.open_regions;
+  exit_code [all]
 
-(* Every other solution may lie in a region that is left open. *)
-let exit_code (all : Kernel.solution_set) = if all.open_regions = [] then 0 else 3
+(* What statements say of solutions, with the side and the window: claims, and sets. *)
 
-(* Prints statements that are true: claims, one of another kind, or both.  The exit code. *)
+let both_sides each statements =
+  List.filter_map (function
+      | Kernel.BelowZero s -> each Below s
+      | _ -> None) statements
+  @ List.filter_map (each Above) statements
+
+let claims_of = both_sides (fun side -> function
+    | Kernel.EachExists (lo, hi, claims) -> Some (side, (lo, hi), claims)
+    | _ -> None)
+
+let sets_of statements =
+  let parts = function
+    | Kernel.AllOfBothSigns (a, b, below, above) ->
+      [Kernel.BelowZero (AllInWindow (Kernel.zero, a, below)); AllInWindow (Kernel.zero, b, above)]
+    | s -> [s] in
+  both_sides (fun side -> function
+      | Kernel.AllInWindow (lo, hi, set) -> Some (side, (lo, hi), set)
+      | _ -> None) (List.concat_map parts statements)
+
+(* The windows in which all solutions are known or, where there are none, those of the claims. *)
+let windows statements =
+  let of_parts parts = List.map (fun (side, (lo, hi), _) -> on_side side (window_of lo hi)) parts in
+  let of_both = function
+    | Kernel.AllOfBothSigns (a, b, _, _) ->
+      Some (fst (on_side Below (window_of Kernel.zero a)), snd (window_of Kernel.zero b))
+    | _ -> None in
+  match List.find_map of_both statements, sets_of statements with
+  | Some window, _ -> [window]
+  | None, [] -> join (of_parts (claims_of statements))
+  | None, sets -> of_parts sets
+
+(* A solution with the value 0 is in both sets. *)
+let note_zero sets =
+  let at_zero (all : Kernel.solution_set) =
+    List.exists (fun (y : Kernel.yield) -> Z.sign (fst y.yield_from) = 0) all.solutions_in in
+  if List.length sets = 2 && List.for_all at_zero sets then "; solutions with the value 0 count in both" else ""
+
+(* The exit code. *)
+let say_sets (problem : Problem.t) slip windows sets =
+  let all = List.map (fun (_, _, set) -> set) sets in
+  let places = match windows with
+    | [window] when List.for_all is_empty all ->
+      let open_regions = List.concat_map (fun (s : Kernel.solution_set) -> s.open_regions) all in
+      ["in " ^ show_window window, { (List.hd all) with open_regions }]
+    | _ -> List.map (fun (side, (lo, hi), set) -> "in " ^ show_interval ~side lo hi, set) sets in
+  verdict_in_windows problem windows (word_of all) (count_and_others places ^ note_zero all);
+  List.iter (say_set problem.unknown slip) sets;
+  exit_code all
+
+(* Prints statements that are true: claims, those of another kind, or both.  The exit code. *)
 let say (problem : Problem.t) statements =
   let slip = Array.of_list (Kernel.complementarity problem.given) in
-  let beside, statement = match statements with
-    | [Kernel.EachExists (_, _, claims); statement] -> claims, statement
-    | [statement] -> [], statement
+  let claims = claims_of statements and sets = sets_of statements in
+  let code = match statements with
+    | _ when sets <> [] -> say_sets problem slip (windows statements) sets
+    | _ when claims <> [] -> claims_only problem (windows statements); 0
+    | [AllAtInfinity all] -> at_infinity problem slip all
+    | [NoneForFriction (low, high)] -> absent problem low high; 0
+    | [OneForEachFriction (low, high)] -> present problem low high; 0
+    | [StableForFriction (low, high)] -> stable problem low high; 0
     | _ -> invalid_arg "statements of one certificate" in
-  let claims, code = match statement with
-    | EachExists (lo, hi, claims) when beside = [] -> claims_only problem lo hi; claims, 0
-    | AllInWindow (lo, hi, all) -> cover problem slip lo hi all; beside, exit_code all
-    | AllAtInfinity all -> at_infinity problem slip all; beside, exit_code all
-    | NoneForFriction (low, high) -> absent problem low high; beside, 0
-    | OneForEachFriction (low, high) -> present problem low high; beside, 0
-    | StableForFriction (low, high) -> stable problem low high; beside, 0
-    | EachExists _ | PointsSolve _ | OneMotionOfRates _ | InEquilibrium _ ->
-      invalid_arg "statements of one certificate" in
-  List.iter (claim problem) claims;
+  List.iter (fun (side, _, claims) -> List.iter (claim problem side) claims) claims;
   code
