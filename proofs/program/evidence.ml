@@ -676,18 +676,17 @@ let start_anew () =
    become one statement. *)
 let of_both_signs (above : parts) (below : parts) ~meet =
   let anew make () = start_anew (); make () in
-  let below_zero make () =
-    try Kernel.Reflected (anew make ()) with refused -> raise (of_negative refused) in
-  let claims = List.map anew (Option.to_list above.of_claims)
-               @ List.map below_zero (Option.to_list below.of_claims) in
-  let covers = match above.of_cover, below.of_cover with
-    | Some cover, Some cover' when meet ->
-      [fun () -> match below_zero cover' (), anew cover () with
-         | Reflected part, part' -> Kernel.OfBothSigns (part, part')
-         | _ -> assert false]
-    | cover, cover' ->
-      List.map anew (Option.to_list cover) @ List.map below_zero (Option.to_list cover') in
-  claims @ covers
+  let anew_below make () = try anew make () with refused -> raise (of_negative refused) in
+  let each above below =
+    List.map anew (Option.to_list above)
+    @ List.map (fun make () -> Kernel.Reflected (anew_below make ())) (Option.to_list below) in
+  each above.of_claims below.of_claims
+  @ (match above.of_cover, below.of_cover with
+      | Some cover, Some cover_below when meet ->
+        [fun () ->
+           let part = anew cover () in
+           Kernel.OfBothSigns (anew_below cover_below (), part)]
+      | cover, cover_below -> each cover cover_below)
 
 (* The parts of the evidence, each as a function that makes it. *)
 let complete (problem : Scaling.t) (certificate : Certificate.t) =

@@ -50,9 +50,9 @@ let refuse_window demanded kind =
   Option.iter (fun option ->
       Json.malformed "%s: expected it with mceip-certificate/1 only, got %s" option kind) option
 
-let window_shape = "a,b with 0 <= a <= b (b may be inf; for eigenvalue a negative or -inf)"
+let window_shape = "a,b with 0 <= a <= b (b may be inf); for eigenvalue a <= b and 0 <= b (a may be -inf)"
 
-let require_window_of (problem : Problem.t) (lo, _) =
+let refuse_negative_window (problem : Problem.t) (lo, _) =
   let below_zero = Option.fold lo ~none:true ~some:(fun q -> Q.sign q < 0) in
   if below_zero && problem.unknown <> "eigenvalue" then
     Json.malformed "--window: expected %s" window_shape
@@ -65,7 +65,7 @@ let verify_eigenproblem demanded document problem_path certificate_path =
   let code = verify_parts demanded problem integers (match certificate, demanded with
       | Complete certificate, Infinity -> Evidence.infinity integers certificate
       | Complete certificate, Window window ->
-        require_window_of problem window;
+        refuse_negative_window problem window;
         Evidence.require_window (Sentences.covers (Evidence.windows certificate) window)
           ("one that covers " ^ Sentences.show_window window) certificate;
         Evidence.complete integers certificate
@@ -105,14 +105,15 @@ let verify_loads problem_path document certificate_path =
      | _ -> invalid_arg "a statement of another kind")
   | _ -> Json.malformed "format: mceip-equilibrium/1 was expected"
 
-(* a,b with a <= b; a may be -inf, b may be inf or empty. *)
+(* a,b with a <= b and 0 <= b; a may be -inf or empty, b may be inf or empty. *)
 let window_of text =
   let bad () = Json.malformed "--window: expected %s" window_shape in
   match List.map String.trim (String.split_on_char ',' text) with
   | [a; b] ->
-    let lo = if a = "-inf" then None else Some (Json.rational_of_spelling a) in
+    let lo = if a = "" || a = "-inf" then None else Some (Json.rational_of_spelling a) in
     let hi = if b = "" || b = "inf" then None else Some (Json.rational_of_spelling b) in
-    (match lo, hi with Some l, Some h when Q.lt h l -> bad () | _ -> ());
+    if Option.fold hi ~none:false ~some:(fun h ->
+        Q.sign h < 0 || Option.fold lo ~none:false ~some:(Q.lt h)) then bad ();
     lo, hi
   | _ -> bad ()
 

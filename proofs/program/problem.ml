@@ -101,15 +101,12 @@ let value_of (p, q) = Q.make p q
 let read_window ~eigenvalue item =
   let field = if item = Null then fun _ -> Null else fields [] ["min"; "max"] item in
   let end_of key = match field key with Null -> None | v -> Some (rational v) in
-  let hi = end_of "max" in
-  let lo = match end_of "min" with
-    | None when not eigenvalue -> Some Q.zero
-    | lo -> lo in
-  let ends_below q = Option.fold ~none:false ~some:(fun h -> Q.lt h q) hi in
-  if ends_below (Option.value lo ~default:Q.zero) || ends_below Q.zero
-  || (not eigenvalue && Option.fold ~none:false ~some:(fun q -> Q.sign q < 0) lo) then
+  let lo = end_of "min" and hi = end_of "max" in
+  let first = Option.value lo ~default:Q.zero in
+  let ends_below q = Option.fold hi ~none:false ~some:(fun h -> Q.lt h q) in
+  if ends_below first || ends_below Q.zero || (Q.sign first < 0 && not eigenvalue) then
     malformed "%s" (if eigenvalue then "min <= max, 0 <= max" else "0 <= min <= max");
-  lo, hi
+  (if eigenvalue then lo else Some first), hi
 
 (* The lines of a matrix as one text. *)
 let canonical_matrix name m =

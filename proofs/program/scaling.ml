@@ -62,7 +62,8 @@ let of_problem (problem : Problem.t) =
   let length = scales.length_scale in
   let common = Z.mul scales.entry_scale length in
   let question = scaled scales given in
-  { unknown = problem.unknown; digest = problem.digest; scales; question; members = Option.map (members_of scales question) radii; common;
+  { unknown = problem.unknown; digest = problem.digest; scales; question;
+    members = Option.map (members_of scales question) radii; common;
     slip_common = Z.mul common (Z.mul length friction) }
 
 let of_plain rows =

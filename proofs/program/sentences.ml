@@ -272,11 +272,12 @@ let windows statements =
   | None, [] -> join (of_parts (claims_of statements))
   | None, sets -> of_parts sets
 
-(* A solution with the value 0 is in both sets. *)
+(* Both sets have a solution whose value may be 0. *)
 let note_zero sets =
   let at_zero (all : Kernel.solution_set) =
     List.exists (fun (y : Kernel.yield) -> Z.sign (fst y.yield_from) = 0) all.solutions_in in
-  if List.length sets = 2 && List.for_all at_zero sets then "; solutions with the value 0 count in both" else ""
+  if List.length sets = 2 && List.for_all at_zero sets
+  then "; solutions with the value 0 count in both" else ""
 
 (* The exit code. *)
 let say_sets (problem : Problem.t) slip windows sets =
