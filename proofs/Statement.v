@@ -91,6 +91,11 @@ Inductive statement :=
 
 Definition opposite (a : point) : point := (- a.1, a.2)%Z.
 
+(* In one of the sets each solution has a value other than 0. *)
+Definition told_apart (below above : solution_set) :=
+  let positive (y : yield) := (0 <? (yield_from y).1)%Z in
+  all positive (solutions_in below) || all positive (solutions_in above).
+
 Section Meaning.
 
 Variable R : rcfType.
@@ -467,10 +472,12 @@ Definition family_exists (f : family) :=
 
 End Statements.
 
-(* All solutions of an eigenvalue problem with -a <= t <= b. *)
+(* All solutions of an eigenvalue problem with -a <= t <= b.  If the sets are told apart, none of
+   them is listed in both. *)
 Definition all_of_both_signs_are Q a b (below above : solution_set) := exists l l',
   [/\ different_solutions (negative_semantics Q) zero a below l,
-      different_solutions (pencil_semantics Q) zero b above l' &
+      different_solutions (pencil_semantics Q) zero b above l',
+      told_apart below above -> forall m m', List.In m l -> List.In m' l' -> - m.1 <> m'.1 &
       forall t x, eigenvalue_solves Q t x -> between t (opposite a) b ->
         is_among (negative_semantics Q) below l (- t) x \/
         is_among (pencil_semantics Q) above l' t x].

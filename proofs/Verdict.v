@@ -11,11 +11,11 @@
 
    Pages: spec/certificates.md, 5.15 to 5.21.  Called by program/main.ml. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Definite Cover Number Condensation Pencil
-  Whole Claim EnclosedClaim Complete System Signs Support Families Lifted ZeroReaction PlainMcp
-  Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical CriticalAnchors Presence
-  PresenceAnchors Points Rational Statement Integral Reflection Members Radii Equilibrium Unique
-  Stability Stable.
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Definite Cover Number
+  Condensation Pencil Whole Claim EnclosedClaim Complete System Signs Support Families Lifted
+  ZeroReaction PlainMcp Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical
+  CriticalAnchors Presence PresenceAnchors Points Rational Statement Integral Reflection Members
+  Radii Equilibrium Unique Stability Stable.
 
 (* A claim about the pencil; a motion with its forces; a box around a motion with particles of zero
    reaction. *)
@@ -216,7 +216,8 @@ Definition below_zero (a : answered) := if a is Proved s then Proved (BelowZero 
 Definition joined (below above : answered) : answered :=
   match below, above with
   | Proved (AllInWindow lo a c), Proved (AllInWindow lo' b c') =>
-      if same_point lo zero && same_point lo' zero then Proved (AllOfBothSigns a b c c')
+      if same_point lo zero && same_point lo' zero
+      then Proved (AllOfBothSigns a b (nonzero_values c) c')
       else EvidenceRefused
   | NotToldApart, _ | _, NotToldApart => NotToldApart
   | _, _ => EvidenceRefused
@@ -490,7 +491,8 @@ case: scaled_answer (@below_sound Q c e) => [s1|?||];
   case: scaled_answer (@scaled_sound (GivenPencil Q) c e') => [s2|?||] //; try by case: s1.
 move=> /(_ _ erefl) + /(_ _ erefl); case: s1 => //; case: s2 => // lo b above lo' a below.
 move=> [all' each'] [all each] /=; case: ifP => // /andP[/same_point_eq eq /same_point_eq eq'] [<-].
-by rewrite eq in all; rewrite eq' in all'; split=> //; apply: both_signs.
+rewrite eq in all; rewrite eq' in all'; split=> //; first exact: both_signs.
+by move=> f /in_filter[/each].
 Qed.
 
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.

@@ -5430,6 +5430,12 @@ type statement =
 | BelowZero of statement
 | AllOfBothSigns of point * point * solution_set * solution_set
 
+(** val told_apart : solution_set -> solution_set -> bool **)
+
+let told_apart below1 above0 =
+  let positive0 = fun y -> Z.ltb Big_int_Z.zero_big_int (fst y.yield_from) in
+  (||) (all positive0 below1.solutions_in) (all positive0 above0.solutions_in)
+
 (** val is_held : rational_body -> int -> bool **)
 
 let is_held b d =
@@ -6153,6 +6159,26 @@ let check_given_stable c b w d lo hi low high =
     ((&&) (nilp (with_zero b))
       (check_stable c.entry_scale (scaled_system c b) w d lo hi low high))
 
+(** val zero_yield : yield -> bool **)
+
+let zero_yield y =
+  (&&) (Z.ltb Big_int_Z.zero_big_int (snd y.yield_to))
+    (Z.leb (fst y.yield_to) Big_int_Z.zero_big_int)
+
+(** val zero_family : family -> bool **)
+
+let zero_family f =
+  match (snd f).held_place with
+  | PointAt v ->
+    (&&) (Z.ltb Big_int_Z.zero_big_int v.value_den) (Z.leb v.value_to Big_int_Z.zero_big_int)
+  | _ -> false
+
+(** val nonzero_values : solution_set -> solution_set **)
+
+let nonzero_values c =
+  { solutions_in = (filter (fun y -> negb (zero_yield y)) c.solutions_in); families_of_set =
+    (filter (fun f -> negb (zero_family f)) c.families_of_set); open_regions = c.open_regions }
+
 type claim_evidence =
 | OfPencil of solution_claim
 | OfMotion of zero_claim
@@ -6393,7 +6419,7 @@ let joined below1 above0 =
           (match s0 with
            | AllInWindow (lo', b, c') ->
              if (&&) (same_point lo zero) (same_point lo' zero)
-             then Proved (AllOfBothSigns (a, b, c, c'))
+             then Proved (AllOfBothSigns (a, b, (nonzero_values c), c'))
              else EvidenceRefused
            | _ -> EvidenceRefused)
         | ClaimRefused _ -> EvidenceRefused

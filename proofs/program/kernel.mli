@@ -1864,6 +1864,8 @@ type statement =
 | BelowZero of statement
 | AllOfBothSigns of point * point * solution_set * solution_set
 
+val told_apart : solution_set -> solution_set -> bool
+
 val is_held : rational_body -> int -> bool
 
 val is_apart : stated -> bool
@@ -2068,6 +2070,12 @@ val check_stable :
 val check_given_stable :
   scales -> rational_system -> elimination -> stability -> point -> point -> stable_end ->
   stable_end -> bool
+
+val zero_yield : yield -> bool
+
+val zero_family : family -> bool
+
+val nonzero_values : solution_set -> solution_set
 
 type claim_evidence =
 | OfPencil of solution_claim

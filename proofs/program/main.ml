@@ -50,7 +50,8 @@ let refuse_window demanded kind =
   Option.iter (fun option ->
       Json.malformed "%s: expected it with mceip-certificate/1 only, got %s" option kind) option
 
-let window_shape = "a,b with 0 <= a <= b (b may be inf); for eigenvalue a <= b and 0 <= b (a may be -inf)"
+let window_shape =
+  "a,b with 0 <= a <= b (b may be inf); for eigenvalue a <= b and 0 <= b (a may be -inf)"
 
 let refuse_negative_window (problem : Problem.t) (lo, _) =
   let below_zero = Option.fold lo ~none:true ~some:(fun q -> Q.sign q < 0) in

@@ -173,6 +173,13 @@ let listed_once families =
 let shown_regions = 20
 
 let is_closed (all : Kernel.solution_set) = all.open_regions = []
+
+let union sets =
+  let all part = List.concat_map part sets in
+  { Kernel.solutions_in = all (fun (s : Kernel.solution_set) -> s.solutions_in);
+    families_of_set = all (fun (s : Kernel.solution_set) -> s.families_of_set);
+    open_regions = all (fun (s : Kernel.solution_set) -> s.open_regions) }
+
 let is_empty (all : Kernel.solution_set) = all.solutions_in = [] && all.families_of_set = []
 
 (* How many solutions in each place, whether there are families, and where every other solution is.
@@ -272,22 +279,19 @@ let windows statements =
   | None, [] -> join (of_parts (claims_of statements))
   | None, sets -> of_parts sets
 
-(* Both sets have a solution whose value may be 0. *)
-let note_zero sets =
-  let at_zero (all : Kernel.solution_set) =
-    List.exists (fun (y : Kernel.yield) -> Z.sign (fst y.yield_from) = 0) all.solutions_in in
-  if List.length sets = 2 && List.for_all at_zero sets
-  then "; solutions with the value 0 count in both" else ""
-
-(* The exit code. *)
+(* Sets are counted together where no solution is in two of them.  The exit code. *)
 let say_sets (problem : Problem.t) slip windows sets =
   let all = List.map (fun (_, _, set) -> set) sets in
-  let places = match windows with
-    | [window] when List.for_all is_empty all ->
-      let open_regions = List.concat_map (fun (s : Kernel.solution_set) -> s.open_regions) all in
-      ["in " ^ show_window window, { (List.hd all) with open_regions }]
-    | _ -> List.map (fun (side, (lo, hi), set) -> "in " ^ show_interval ~side lo hi, set) sets in
-  verdict_in_windows problem windows (word_of all) (count_and_others places ^ note_zero all);
+  let together = match all with
+    | [_] -> true
+    | [below; above] -> Kernel.told_apart below above
+    | _ -> invalid_arg "statements of one certificate" in
+  let of_side (side, (lo, hi), set) = "in " ^ show_interval ~side lo hi, set in
+  let counts = match windows with
+    | [window] when together -> count_and_others ["in " ^ show_window window, union all]
+    | [_] -> count_and_others (List.map of_side sets) ^ "; one with the value 0 would count twice"
+    | _ -> count_and_others (List.map of_side sets) in
+  verdict_in_windows problem windows (word_of all) counts;
   List.iter (say_set problem.unknown slip) sets;
   exit_code all
 
