@@ -40,7 +40,7 @@ class Solution:
     enclosure. The floats are its components to the precision of doubles.
 
     Attributes:
-        unknown: "lambda2" (units of stiffness / mass) or "mu" (no unit).
+        unknown: "lambda2" (units of stiffness / mass), "mu" (no unit) or "eigenvalue".
         value: the value, rounded.
         enclosure: encloses the value.
         support: variables of the pencil with x > 0: impending slip that becomes slip.
@@ -81,14 +81,14 @@ class Family:
 
     Attributes:
         support: variables with x > 0.
-        start: encloses the smallest value.
+        start: encloses the smallest value; None where there is none.
         end: encloses the largest value; None where there is none.
         is_point: is it one value?
         is_alone: is it proved that there are no other solutions at these values?
     """
 
     support: list[int]
-    start: Interval
+    start: Interval | None
     end: Interval | None
     is_point: bool
     is_alone: bool
@@ -99,13 +99,13 @@ class OpenRegion:
     """Values and supports of which nothing is proved.
 
     Attributes:
-        min: smallest value.
+        min: smallest value; None for -infinity.
         max: largest value; None for infinity.
         moving: variables that belong to each of the supports.
         undecided: variables that may belong to them or not.
     """
 
-    min: Fraction
+    min: Fraction | None
     max: Fraction | None
     moving: list[int]
     undecided: list[int]
@@ -588,10 +588,10 @@ def solution_of(answer: dict[str, Any]) -> Solution:
 
 
 def family_of(answer: dict[str, Any]) -> Family:
-    end = answer["to"]
+    start, end = answer["from"], answer["to"]
     return Family(
         support=answer["support"],
-        start=interval_of(answer["from"]),
+        start=None if start is None else interval_of(start),
         end=None if end is None else interval_of(end),
         is_point=answer["is_point"],
         is_alone=answer["is_alone"],
@@ -600,7 +600,7 @@ def family_of(answer: dict[str, Any]) -> Family:
 
 def region_of(answer: dict[str, Any]) -> OpenRegion:
     return OpenRegion(
-        min=fraction_of(answer["min"]),
+        min=fraction_or_none(answer["min"]),
         max=fraction_or_none(answer["max"]),
         moving=answer["moving"],
         undecided=answer["undecided"],

@@ -137,7 +137,7 @@ fn families(list: &[SolutionFamily]) -> Vec<Value> {
 fn family(family: &SolutionFamily) -> Value {
     json!({
         "support": family.support,
-        "from": interval(&family.from),
+        "from": family.from.as_ref().map(interval),
         "to": family.to.as_ref().map(interval),
         "is_point": family.is_point,
         "is_alone": family.is_alone,
@@ -150,7 +150,7 @@ fn regions(list: &[OpenRegion]) -> Vec<Value> {
 
 fn region(region: &OpenRegion) -> Value {
     json!({
-        "min": region.min.to_string(),
+        "min": region.min.as_ref().map(ToString::to_string),
         "max": region.max.as_ref().map(ToString::to_string),
         "moving": region.moving,
         "undecided": region.undecided,

@@ -57,6 +57,44 @@ def test_absence_is_proved_and_open_regions_are_said(example):
     assert mceip.check(problem, everything.certificate).solutions == []
 
 
+def test_pareto_eigenvalues_of_both_signs() -> None:
+    a = np.array([[8.0, -1, -2], [3, 4, -1], [-1, 0, -6]])
+    problem = mceip.Problem.eicp(a, np.eye(3))
+    assert problem.unknown == "eigenvalue"
+
+    found = problem.complete()
+    assert found.is_complete
+    values = [solution.value for solution in found.solutions]
+    assert values == pytest.approx([-6.1453199, -6.1414284, -6, -6, 4, 5, 7])
+    assert "negative" in found.certificate
+    mceip.check(problem, found.certificate)
+
+    for solution in found.solutions:
+        w = solution.value * solution.x - a @ solution.x
+        assert w == pytest.approx(solution.y, abs=1e-9)
+        assert min(w) > -1e-9 and min(solution.x) >= 0
+
+    assert not problem.in_window(7.5).complete().solutions
+    assert len(problem.in_window(-6.1, 4).complete().solutions) == 3
+    with pytest.raises(mceip.MceipError, match="0 <= max"):
+        problem.in_window(-3, -2)
+
+    certified = problem.certify(-6.0, [0, 0, 1])
+    assert certified.solution.value == -6
+
+
+def test_a_family_below_zero_has_no_start() -> None:
+    # (t B - A) x = (0, x_1 - t x_0): x = (1, 0) for every t <= 0, x = (1, t) above.
+    a, b = np.array([[0.0, 0], [0, -1]]), np.array([[0.0, 0], [-1, 0]])
+    found = mceip.Problem.eicp(a, b).complete()
+    ranges = [family for family in found.families if not family.is_point]
+    assert found.is_complete
+    assert [family.support for family in ranges] == [[0], [0, 1]]
+    assert ranges[0].start is None and ranges[0].end == (0, 0)
+    assert ranges[1].start == (0, 0) and ranges[1].end is None
+
+
+
 def test_families_are_reported():
     # A + t B = 0 at t = 1: every x solves it.
     problem = mceip.Problem.from_pencil(-np.eye(2), np.eye(2))
