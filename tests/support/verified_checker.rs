@@ -86,7 +86,7 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
         return wrong;
     }
 
-    let Some(asked) = window_of(certificate) else {
+    let Some(asked) = windows_of(certificate) else {
         return vec!["accepted without a window".into()];
     };
     let reduced = reduce(problem).unwrap();
@@ -98,12 +98,12 @@ pub fn falsehoods(problem: &Problem, certificate: &str, lines: &[String]) -> Vec
 
     let mut wrong = verdict.other_than(
         &name(problem, friction_of(problem)),
-        &left_out(&asked, problem.window()),
+        &left_out(&asked, problem),
     );
     wrong.extend(if reduced.zero.is_empty() {
         statement.falsehoods(pencil, &asked)
     } else {
-        statement.falsehoods_by_modes(&reduced, &asked)
+        statement.falsehoods_by_modes(&reduced, problem.window(), &asked)
     });
     wrong
 }
@@ -158,11 +158,15 @@ fn friction_of(problem: &Problem) -> Option<&Rational> {
 }
 
 /// What is said where a window is not all of the problem's.
-fn left_out(asked: &Window, whole: &Window) -> String {
-    if RealWindow::from(asked).covers(&RealWindow::from(whole)) {
+fn left_out(asked: &[RealWindow], problem: &Problem) -> String {
+    let whole = problem.real_window();
+    if asked.iter().any(|window| window.covers(&whole)) {
         String::new()
     } else {
-        format!("; NOT the whole window {whole} of the problem")
+        format!(
+            "; NOT the whole window {} of the problem",
+            window_text(&whole)
+        )
     }
 }
 
@@ -303,15 +307,57 @@ fn has_solution(system: System, unknown: Unknown, window: Window) -> Option<bool
     (has_some || found.is_complete_list()).then_some(has_some)
 }
 
-/// The window in the text of a certificate.
-fn window_of(certificate: &str) -> Option<Window> {
+/// The windows of what a certificate states: those of its complete sets or, without any, of its
+/// claims.
+fn windows_of(certificate: &str) -> Option<Vec<RealWindow>> {
     let file: serde_json::Value = serde_json::from_str(certificate).ok()?;
-    let [min, max] = ["min", "max"].map(|end| &file["window"][end]);
+    let parts = [&file["negative"], &file];
+    let has_set = |part: &serde_json::Value| !part["complete_set"].is_null();
+    let has_any_set = parts.iter().any(|part| has_set(part));
+    let window = |part: &serde_json::Value| {
+        let says = if has_any_set {
+            has_set(part)
+        } else {
+            part["claims"]
+                .as_array()
+                .is_some_and(|claims| !claims.is_empty())
+        };
+        says.then(|| window_of(part))
+    };
+
+    let [negative, window] = parts.map(window);
+    let (negative, window) = (
+        negative.map_or(Ok(None), known),
+        window.map_or(Ok(None), known),
+    );
+    let (negative, window) = (negative.ok()?, window.ok()?);
+    Some(RealWindow::of_parts(negative.as_ref(), window.as_ref()))
+}
+
+/// A window that is there has to be readable.
+fn known(window: Option<Window>) -> Result<Option<Window>, ()> {
+    window.map(Some).ok_or(())
+}
+
+/// The window in a part of a certificate.
+fn window_of(part: &serde_json::Value) -> Option<Window> {
+    let [min, max] = ["min", "max"].map(|end| &part["window"][end]);
     let max = match max {
         serde_json::Value::Null => None,
         value => Some(spelt(value)?),
     };
     Window::new(spelt(min)?, max).ok()
+}
+
+/// "[a, b]", "(-infinity, infinity)".
+fn window_text(window: &RealWindow) -> String {
+    let min = window
+        .min()
+        .map_or("(-infinity".into(), |min| format!("[{min}"));
+    let max = window
+        .max()
+        .map_or("infinity)".into(), |max| format!("{max}]"));
+    format!("{min}, {max}")
 }
 
 /// A number of a file: a JSON string or a JSON number.
@@ -325,7 +371,7 @@ fn spelt(value: &serde_json::Value) -> Option<Rational> {
 /// The sentences about a complete set, about claims, or both.
 #[derive(Debug)]
 pub struct Statement {
-    window: Window,
+    windows: Vec<RealWindow>,
     /// All solutions in the window; `None` where nothing is said about others.
     cover: Option<SaidCover>,
     /// Solutions that are claimed one by one.
@@ -377,13 +423,16 @@ impl Statement {
         if let Some(rest) = sentence.strip_prefix("claims, each has a solution in ") {
             let window = rest.strip_suffix("; nothing said about others")?;
             return Some(Statement {
-                window: read_window(window)?,
+                windows: window
+                    .split(" or ")
+                    .map(read_window)
+                    .collect::<Option<_>>()?,
                 cover: None,
                 claims: listed.claims,
             });
         }
 
-        let (window, announced) = sentence_of_a_cover(sentence)?;
+        let (windows, announced) = sentence_of_a_cover(sentence)?;
         let said = AcceptedCover {
             solutions: listed.solutions,
             families: listed.families,
@@ -391,7 +440,7 @@ impl Statement {
             leaves: 1,
         };
         Some(Statement {
-            window,
+            windows,
             cover: Some(SaidCover {
                 announced,
                 said,
@@ -401,16 +450,34 @@ impl Statement {
         })
     }
 
-    /// What is said and is not so; empty where all is true. `asked` is the window of the
-    /// certificate, which has to be the one that the statement is about.
-    pub fn falsehoods(&self, pencil: &Pencil, asked: &Window) -> Vec<String> {
-        self.falsehoods_beside(&enumerate(pencil, asked).unwrap(), asked)
+    /// What is said and is not so; empty where all is true. `asked` are the windows of the
+    /// certificate, which have to be those that the statement is about.
+    pub fn falsehoods(&self, pencil: &Pencil, asked: &[RealWindow]) -> Vec<String> {
+        let mut truth = Enumeration::default();
+        for window in asked {
+            let found = enumerate(pencil, window).unwrap();
+            truth.solutions.extend(found.solutions);
+            truth.cones.extend(found.cones);
+            truth.ranges.extend(found.ranges);
+            truth.undescribed.extend(found.undescribed);
+        }
+        self.falsehoods_beside(&truth, asked)
     }
 
     /// The same for a system with particles in contact with zero reaction. Where the enumerator of
     /// modes leaves something undescribed, nothing is held against the statement.
-    fn falsehoods_by_modes(&self, split: &Reduced, asked: &Window) -> Vec<String> {
-        let list = enumerate_modes(split, asked);
+    fn falsehoods_by_modes(
+        &self,
+        split: &Reduced,
+        whole: &Window,
+        asked: &[RealWindow],
+    ) -> Vec<String> {
+        let min = asked
+            .iter()
+            .find_map(RealWindow::min)
+            .unwrap_or(whole.min());
+        let max = asked.iter().find_map(RealWindow::max).cloned();
+        let list = enumerate_modes(split, &Window::new(min.clone(), max).unwrap());
         if !list.is_complete_list() {
             return Vec::new();
         }
@@ -422,10 +489,10 @@ impl Statement {
         self.falsehoods_beside(&truth, asked)
     }
 
-    fn falsehoods_beside(&self, truth: &Enumeration, asked: &Window) -> Vec<String> {
+    fn falsehoods_beside(&self, truth: &Enumeration, asked: &[RealWindow]) -> Vec<String> {
         let mut wrong = Vec::new();
-        if self.window != *asked {
-            wrong.push(format!("about {:?} in place of {asked:?}", self.window));
+        if self.windows != asked {
+            wrong.push(format!("about {:?} in place of {asked:?}", self.windows));
         }
 
         for claim in &self.claims {
@@ -483,50 +550,70 @@ impl Listed {
 }
 
 /// `no solution in W`, `2 solutions and families of them in W, and no other`, or
-/// `1 solution in W, and no other outside 3 open regions`.
-fn sentence_of_a_cover(sentence: &str) -> Option<(Window, Announced)> {
+/// `1 solution in W, and no other outside 3 open regions`; of values of both signs also
+/// `2 solutions in W, no solution in W, and no other`.
+fn sentence_of_a_cover(sentence: &str) -> Option<(Vec<RealWindow>, Announced)> {
     let (closed_part, open) = match sentence.split_once(" outside ") {
         None => (sentence, 0),
         Some((part, regions)) => (part, first_word(regions)?.parse().ok()?),
     };
 
-    let (counts, place) = closed_part.split_once(" in ")?;
-    let others = place.strip_suffix(", and no other");
-    let (solutions, has_families) = match counts.strip_suffix(" and families of them") {
-        None => (counts, false),
-        Some(solutions) => (solutions, true),
+    let (mut rest, excludes_others) = match closed_part.strip_suffix(", and no other") {
+        None => (closed_part, false),
+        Some(counts) => (counts, true),
     };
-
-    let window = match (solutions, others) {
-        ("no solution", None) => place,
-        ("no solution", Some(_)) | (_, None) => return None,
-        (_, Some(window)) => window,
-    };
-    let solutions = match first_word(solutions)? {
-        "no" => 0,
-        count => count.parse().ok()?,
-    };
-
-    let announced = Announced {
-        solutions,
-        has_families,
+    let mut windows = Vec::new();
+    let mut announced = Announced {
+        solutions: 0,
+        has_families: false,
         open,
     };
-    Some((read_window(window)?, announced))
+    let mut lists_some = false;
+
+    while !rest.is_empty() {
+        let (counts, place) = rest.split_once(" in ")?;
+        let (window, others) = place.split_at(place.find([']', ')'])? + 1);
+        windows.push(read_window(window)?);
+        rest = others.strip_prefix(", ").unwrap_or(others);
+
+        let (solutions, has_families) = match counts.strip_suffix(" and families of them") {
+            None => (counts, false),
+            Some(solutions) => (solutions, true),
+        };
+        lists_some |= solutions != "no solution";
+        announced.has_families |= has_families;
+        announced.solutions += match first_word(solutions)? {
+            "no" => 0,
+            count => count.parse().ok()?,
+        };
+    }
+
+    (lists_some == excludes_others).then_some((windows, announced))
 }
 
 fn first_word(text: &str) -> Option<&str> {
     text.split_whitespace().next()
 }
 
-/// `[a, b]` or `[a, infinity)`.
-fn read_window(text: &str) -> Option<Window> {
-    let (min, max) = text.strip_prefix('[')?.split_once(", ")?;
+/// `[a, b]`, `[a, infinity)` or `(-infinity, b]`.
+fn read_window(text: &str) -> Option<RealWindow> {
+    let (min, max) = text.split_once(", ")?;
+    let min = match min {
+        "(-infinity" => None,
+        finite => Some(number(finite.strip_prefix('[')?)?),
+    };
     let max = match max {
         "infinity)" => None,
         finite => Some(number(finite.strip_suffix(']')?)?),
     };
-    Window::new(number(min)?, max).ok()
+
+    // One below 0 is the reflection of one above.
+    let is_below = max.as_ref().is_some_and(Signed::is_negative);
+    if !is_below {
+        return RealWindow::new(min, max).ok();
+    }
+    let reflected = Window::new(-max?, min.map(|min| -min)).ok()?;
+    RealWindow::of_parts(Some(&reflected), None).pop()
 }
 
 /// `[a, b], slip [0, 2]`: an interval, the support.
@@ -546,18 +633,20 @@ fn family(text: &str, word: &str) -> Option<SolutionFamily> {
 
     let (from, to, is_point) = if let Some(value) = place.strip_prefix(&format!("{word} = ")) {
         let value = enclosed(value)?;
-        (value.clone(), Some(value), true)
+        (Some(value.clone()), Some(value), true)
     } else if let Some(value) = place.strip_prefix(&format!("every {word} above ")) {
-        (enclosed(value)?, None, false)
+        (Some(enclosed(value)?), None, false)
+    } else if let Some(value) = place.strip_prefix(&format!("every {word} below ")) {
+        (None, Some(enclosed(value)?), false)
     } else {
         let ends = place.strip_prefix(&format!("every {word} between "))?;
         let (from, to) = ends.split_once(" and ")?;
-        (enclosed(from)?, Some(enclosed(to)?), false)
+        (Some(enclosed(from)?), Some(enclosed(to)?), false)
     };
 
     Some(SolutionFamily {
         support: indices(support)?,
-        from: Some(from),
+        from,
         to,
         is_point,
         is_alone: how_many == "one solution at each",
@@ -577,7 +666,7 @@ fn open_region(text: &str, slip: &[usize]) -> Option<OpenRegion> {
         return None;
     }
     Some(OpenRegion {
-        min: Some(window.min().clone()),
+        min: window.min().cloned(),
         max: window.max().cloned(),
         moving,
         undecided,
