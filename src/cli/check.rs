@@ -12,7 +12,7 @@ use super::common::{CliError, exit, load, parse_window, print, text};
 use super::job::{Job, decided};
 use super::path::read_loads_of;
 use crate::say::path::LETTERS;
-use crate::say::{self, number_text, window_text, windows_text};
+use crate::say::{self, number_text, window_text};
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, Certificate, CriticalCertificate, EQUILIBRIUM_FORMAT,
     EquilibriumCertificate, PRESENCE_FORMAT, PresenceCertificate, STABILITY_FORMAT,
@@ -422,6 +422,12 @@ fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) ->
         Some(Place::Family(k)) => format!("claim: {proved}; in family {} below\n", k + 1),
         Some(Place::Open(k)) => format!("claim: {proved}; in open region {} below\n", k + 1),
     }
+}
+
+/// "[0, 2.5]", or "[-2, -1] and [0, 2.5]".
+fn windows_text(windows: &[RealWindow]) -> String {
+    let windows: Vec<String> = windows.iter().map(window_text).collect();
+    windows.join(" and ")
 }
 
 /// Says that the certificate speaks of a part of the problem's window only.

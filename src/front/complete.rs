@@ -38,23 +38,23 @@ pub struct SolutionSet {
     /// What is proved as a whole: of values of both signs, where both are sought.
     proved: Proved<Certificate>,
     cover: AcceptedCover,
-    non_negative: Half,
-    negative: Option<Half>,
+    non_negative: SetOfSign,
+    negative: Option<SetOfSign>,
     /// Made when it is first asked for: many digits may cost more than the proof.
     listed: OnceLock<(Vec<Solution>, Vec<Listed>)>,
 }
 
 /// What is proved of values of one sign: of the problem, or of its reflection.
 #[derive(Debug, Clone)]
-struct Half {
+struct SetOfSign {
     problem: mceip_model::Problem,
     reduced: Reduced,
     completed: Completed,
 }
 
-impl Half {
-    fn new(problem: mceip_model::Problem, completed: Completed) -> Result<Half, Error> {
-        Ok(Half {
+impl SetOfSign {
+    fn new(problem: mceip_model::Problem, completed: Completed) -> Result<SetOfSign, Error> {
+        Ok(SetOfSign {
             reduced: reduce(&problem)?,
             problem,
             completed,
@@ -76,7 +76,7 @@ impl SolutionSet {
     fn new(
         problem: &mceip_model::Problem,
         completed: Completed,
-        negative: Option<Half>,
+        negative: Option<SetOfSign>,
     ) -> Result<SolutionSet, Error> {
         let mut proved = completed.proved.clone();
         let mut cover = completed.cover.clone();
@@ -90,7 +90,7 @@ impl SolutionSet {
         Ok(SolutionSet {
             proved,
             cover,
-            non_negative: Half::new(problem.clone(), completed)?,
+            non_negative: SetOfSign::new(problem.clone(), completed)?,
             negative,
             listed: OnceLock::new(),
         })
@@ -170,7 +170,7 @@ impl SolutionSet {
         self.listed.get_or_init(|| {
             let mut solutions = Vec::new();
             let mut all_listed = Vec::new();
-            let negative = self.negative.iter().flat_map(Half::listed);
+            let negative = self.negative.iter().flat_map(SetOfSign::listed);
             let mut negative: Vec<_> = negative.map(reflected_entry).collect();
             negative.sort_by(|(p, _), (q, _)| by_value(p).cmp(&by_value(q)));
             let non_negative = self.non_negative.listed();
@@ -259,7 +259,11 @@ impl Problem {
         let negative_parts = negative_parts.ok_or(CompleteError::NoCompleteSet)?;
         let completed = merge(problem, &parts)?;
         let negative = merge(&reflected, &negative_parts)?;
-        SolutionSet::new(problem, completed, Some(Half::new(reflected, negative)?))
+        SolutionSet::new(
+            problem,
+            completed,
+            Some(SetOfSign::new(reflected, negative)?),
+        )
     }
 
     /// The problem whose solutions are those at infinity: the reversed one, sA + B with s = 1/t, at
@@ -346,7 +350,11 @@ impl<'a> Complete<'a> {
         let earlier_negative = earlier_negative.flatten();
         let watch = watch.kept_by(keeper);
         let negative = self.half(&reflected, earlier_negative.as_ref(), &watch)?;
-        SolutionSet::new(problem, completed, Some(Half::new(reflected, negative)?))
+        SolutionSet::new(
+            problem,
+            completed,
+            Some(SetOfSign::new(reflected, negative)?),
+        )
     }
 
     /// Searches for values of one sign.

@@ -100,8 +100,8 @@ impl Problem {
         Problem::new(Body::Pencil(pencil), unknown)
     }
 
-    /// The eigenvalue complementarity problem of two n x n matrices: all t of either sign and x != 0
-    /// with
+    /// The eigenvalue complementarity problem of two n x n matrices: all t of either sign and
+    /// x != 0 with
     ///
     /// ```text
     /// 0 <= x _|_ (t B - A) x >= 0

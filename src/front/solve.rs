@@ -198,7 +198,7 @@ impl<'a> Solve<'a> {
     }
 
     /// Searches for values of one sign.
-    fn half(&self, problem: &mceip_model::Problem) -> Result<Half, Error> {
+    fn half(&self, problem: &mceip_model::Problem) -> Result<FoundOfSign, Error> {
         let reduced = reduce(problem)?;
         let watch = self.watched.watch();
         let run = multistart(problem, &reduced, &self.search, &watch)?;
@@ -215,7 +215,7 @@ impl<'a> Solve<'a> {
             }
         }
 
-        Ok(Half {
+        Ok(FoundOfSign {
             run,
             certificates,
             entries,
@@ -224,7 +224,7 @@ impl<'a> Solve<'a> {
 }
 
 /// What has been found among the values of one sign.
-struct Half {
+struct FoundOfSign {
     run: multistart::MultistartFound,
     certificates: Vec<Proved<Certificate>>,
     entries: Vec<(AcceptedClaim, Listed)>,

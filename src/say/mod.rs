@@ -41,12 +41,6 @@ pub(crate) fn window_text(window: impl Into<RealWindow>) -> String {
     range_text(window.min(), window.max())
 }
 
-/// "[0, 2.5]", or "[-2, -1] and [0, 2.5]".
-pub(crate) fn windows_text(windows: &[RealWindow]) -> String {
-    let windows: Vec<String> = windows.iter().map(window_text).collect();
-    windows.join(" and ")
-}
-
 /// The same of a part of a window; no end is infinity.
 pub(crate) fn range_text(min: Option<&Rational>, max: Option<&Rational>) -> String {
     let min = min.map_or_else(

@@ -123,23 +123,23 @@ pub fn audit(
 }
 
 /// A part of a certificate: what it says of values that are not negative, or of the others.
-struct Part<'a> {
+struct SignPart<'a> {
     window: &'a Window,
     claims: &'a [Claim],
     complete_set: Option<&'a CompleteSet>,
 }
 
 impl Certificate {
-    fn non_negative(&self) -> Part<'_> {
-        Part {
+    fn non_negative(&self) -> SignPart<'_> {
+        SignPart {
             window: &self.window,
             claims: &self.claims,
             complete_set: self.complete_set.as_ref(),
         }
     }
 
-    fn negative(&self) -> Option<Part<'_>> {
-        self.negative.as_ref().map(|negative| Part {
+    fn negative(&self) -> Option<SignPart<'_>> {
+        self.negative.as_ref().map(|negative| SignPart {
             window: &negative.window,
             claims: &negative.claims,
             complete_set: negative.complete_set.as_ref(),
@@ -186,7 +186,7 @@ impl<'a> ClaimChecker<'a> {
     /// Checks a part of a certificate: its claims, its complete set, and that they agree.
     fn part(
         &self,
-        part: &Part<'_>,
+        part: &SignPart<'_>,
         audit: Option<&Audit<'_>>,
     ) -> Result<(Vec<AcceptedClaim>, Option<AcceptedCover>), Rejected> {
         // The solutions come first, because a cover may refer to them.
@@ -211,7 +211,7 @@ impl<'a> ClaimChecker<'a> {
     }
 
     /// Checks all claims of a part of a certificate, in its order.
-    fn solutions<'c>(&self, part: &Part<'c>) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
+    fn solutions<'c>(&self, part: &SignPart<'c>) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
         let mut solutions = Vec::new();
         let allowed = allowed_work(part.claims.len());
         let mut work: u64 = 0;

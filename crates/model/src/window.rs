@@ -231,4 +231,68 @@ mod tests {
         assert!(Window::new(whole(2), Some(whole(1))).is_err());
         assert!(Window::new(whole(-1), None).is_err());
     }
+
+    fn real(min: Option<i64>, max: Option<i64>) -> RealWindow {
+        RealWindow::new(min.map(whole), max.map(whole)).unwrap()
+    }
+
+    /// [-3, 5] is [0, 5] and, with the sign changed, [0, 3].
+    #[test]
+    fn a_real_window_has_a_part_on_each_side_of_zero() {
+        let window = |min: i64, max: Option<i64>| Window::new(whole(min), max.map(whole)).unwrap();
+        for (both, above, below) in [
+            (
+                real(Some(-3), Some(5)),
+                window(0, Some(5)),
+                Some(window(0, Some(3))),
+            ),
+            (
+                real(None, Some(0)),
+                window(0, Some(0)),
+                Some(window(0, None)),
+            ),
+            (real(Some(0), None), window(0, None), None),
+            (real(Some(2), Some(2)), window(2, Some(2)), None),
+            (RealWindow::ALL, Window::all(), Some(Window::all())),
+        ] {
+            assert_eq!(
+                (both.non_negative(), both.negative()),
+                (above.clone(), below.clone())
+            );
+            assert_eq!(RealWindow::joined(below.as_ref(), &above), both);
+            assert_eq!(RealWindow::of_parts(below.as_ref(), Some(&above)), [both]);
+        }
+
+        // With a gap at 0 there are two, and one alone is on its side.
+        let apart = RealWindow::of_parts(Some(&window(1, Some(3))), Some(&window(0, None)));
+        let below = || RealWindow {
+            min: Some(whole(-3)),
+            max: Some(whole(-1)),
+        };
+        assert_eq!(apart, [below(), real(Some(0), None)]);
+        assert_eq!(
+            RealWindow::of_parts(Some(&window(1, Some(3))), None),
+            [below()]
+        );
+        assert!(RealWindow::of_parts(None, None).is_empty());
+    }
+
+    #[test]
+    fn real_windows_cover_their_parts() {
+        let both = real(Some(-3), Some(5));
+        assert!(RealWindow::ALL.covers(&both) && !both.covers(&RealWindow::ALL));
+        assert!(both.covers(&real(Some(-3), Some(0))) && both.covers(&real(Some(5), Some(5))));
+        assert!(!both.covers(&real(Some(-4), Some(0))) && !both.covers(&real(Some(0), Some(6))));
+        assert!(!both.covers(&real(None, Some(0))) && !both.covers(&real(Some(0), None)));
+    }
+
+    #[test]
+    fn real_windows_that_are_empty_or_end_below_zero_are_refused() {
+        let refused = |min: Option<i64>, max: i64| {
+            let refused = RealWindow::new(min.map(whole), Some(whole(max)));
+            matches!(refused, Err(ModelError::RealWindow { .. }))
+        };
+        assert!(refused(Some(3), 2) && refused(Some(-3), -2) && refused(None, -1));
+        assert!(!refused(Some(-3), 0) && !refused(None, 0));
+    }
 }

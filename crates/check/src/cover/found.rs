@@ -105,7 +105,7 @@ pub(super) fn joined(below: AcceptedCover, above: AcceptedCover) -> AcceptedCove
     AcceptedCover {
         families,
         solutions,
-        open: below.open.into_iter().chain(above.open).collect(),
+        open: below.open.into_iter().rev().chain(above.open).collect(),
         leaves: below.leaves + above.leaves,
     }
 }

@@ -720,4 +720,55 @@ mod tests {
             Err(ModelError::Missing { what: "mass", .. })
         ));
     }
+
+    /// The window of an eigenvalue problem holds numbers of both signs, the real line if not said.
+    #[test]
+    fn an_eigenvalue_problem_is_read_and_written() {
+        let with = |window: &str| {
+            let pencil = r#""pencil": {"a": [[1, 2], [3, 4]], "b": [[0, "-1/2"], [0, 1]]}"#;
+            let head = r#""format": "mceip-problem/1", "unknown": "eigenvalue""#;
+            read(&format!("{{{head}, {window} {pencil}}}"))
+        };
+        let both = with(r#""window": {"min": "-7/2", "max": 3},"#).unwrap();
+        assert_eq!(read(&write_problem(&both)).unwrap(), both);
+        let reflected = both.reflected().unwrap();
+        assert_eq!(reflected.window().max(), Some(&rational(7, 2)));
+        assert_eq!(reflected.word(), "-eigenvalue");
+        assert!(reflected.reflected().is_none());
+        let (Body::Pencil(own), Body::Pencil(other)) = (both.body(), reflected.body()) else {
+            panic!("pencils");
+        };
+        assert_eq!((own.a(), &own.b().negated()), (other.a(), other.b()));
+
+        for line in [
+            "",
+            r#""window": {},"#,
+            r#""window": {"min": null, "max": null},"#,
+        ] {
+            let problem = with(line).unwrap();
+            assert_eq!(problem.real_window(), RealWindow::ALL);
+            assert_eq!(problem.sha256(), both.sha256());
+        }
+        assert!(
+            with(r#""window": {"min": 0},"#)
+                .unwrap()
+                .reflected()
+                .is_none()
+        );
+        let refused = with(r#""window": {"max": -1},"#);
+        assert!(matches!(refused, Err(ModelError::RealWindow { .. })));
+    }
+
+    #[test]
+    fn eigenvalues_are_those_of_a_pencil_without_free_variables() {
+        let of_body = system(SLIP).replace("lambda2", "eigenvalue");
+        let with_free = r#"{"format": "mceip-problem/1", "unknown": "eigenvalue",
+            "pencil": {"a": [[1]], "b": [[1]], "free": [0]}}"#;
+        for text in [of_body.as_str(), with_free] {
+            assert!(
+                matches!(read(text), Err(ModelError::Eigenvalue { .. })),
+                "{text}"
+            );
+        }
+    }
 }

@@ -72,7 +72,7 @@ pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, Model
             let mass = changes.blocks(mass);
             (stiffness.at(mu), mass.at(mu))
         }
-        // (21); require_for has refused lambda2 without M and mu, and eigenvalues of a body.
+        // (21); require_for has refused lambda2 without M and mu.
         _ => (stiffness.constant, stiffness.slope),
     };
 
