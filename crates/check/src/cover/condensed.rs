@@ -34,11 +34,10 @@ use super::ends::{LongMatrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms, own_interval};
 use super::family::row_bits;
 use super::fault::CoverFault;
-use super::product::{
-    Linear, LinearPart, NonzeroRows, part_of, row_of, row_times, times, transposed,
-};
+use super::product::{Linear, LinearPart, NonzeroRows, part_of, row_of, times, transposed};
 use super::psd::{SymmetricRows, semidefinite};
 use super::region::end;
+use super::residual::{BeyondDegree, Residual, ResidualEquations};
 use super::spread::{AnchorWitness, MemberSpread, Reach};
 use crate::certificate::{Anchor, Condensation, CriticalAnchor, Factor, IntegerMatrix, IntegerRow};
 use crate::pencil::{MemberRadii, Row, Rows};
@@ -205,7 +204,8 @@ impl<'a> Anchors<'a> {
         let mut right = None;
         let mut expansions = Vec::with_capacity(eliminations.len());
         for elimination in &eliminations {
-            let right = right.get_or_insert_with(|| elimination.right_residual());
+            let residual = || elimination.right_equations().residual(BeyondDegree::Kept);
+            let right = right.get_or_insert_with(residual);
             let mut expanded = elimination.expand(right, self.bounds);
             if let Some(radii) = elimination.radii {
                 expanded.spread(elimination.spread(radii, &self.reach(number)?));
@@ -467,24 +467,6 @@ struct AnchorElimination<'a> {
     entry_bits: u64,
 }
 
-/// What is kept of a residual r = T_fs - F W, whose coefficients are in units of 1 / (D q 2^e_w).
-///
-/// Its rows are formed one after the other: together they are as large as W, in long integers.
-struct Residual {
-    /// The sums of the squares of each column of each coefficient.
-    squares: Vec<Vec<Integer>>,
-    /// The coefficients beyond the degree of W, if they are asked for.
-    beyond: Vec<LongMatrix>,
-}
-
-impl Residual {
-    /// Upper bounds of the norms of the columns of each coefficient.
-    fn norms(&self) -> Norms {
-        let squares = self.squares.iter();
-        squares.map(|sums| norms(sums, &ones(sums.len()))).collect()
-    }
-}
-
 impl IntegralBlocks {
     /// Each slip row i is to be divided by 2^`bits[i]`.
     fn of(rows: &Rows, bits: &[u64]) -> IntegralBlocks {
@@ -732,28 +714,27 @@ impl AnchorElimination<'_> {
         MemberSpread::of(radii, &about, reach)
     }
 
-    /// r = T_fs - F W.
-    fn right_residual(&self) -> Residual {
-        ResidualEquations {
-            f: &self.about.ff,
-            c: &self.about.fs,
-            w: &self.w,
-            columns: self.blocks.slip,
-        }
-        .residual(BeyondDegree::Kept)
+    /// F W = T_fs.
+    fn right_equations(&self) -> ResidualEquations<'_> {
+        let c = self.about.fs.clone();
+        let one = ones(self.blocks.slip);
+        ResidualEquations::new(&self.about.ff, c, self.anchor.right, &one)
     }
 
     /// Norms of the columns of l = T_sf' - F V, coefficient by coefficient, in units of
     /// 1 / (D q 2^e_v), column i multiplied by the factor of slip row i.
-    fn left_residual_norms(&self) -> Norms {
-        ResidualEquations {
-            f: &self.about.ff,
-            c: &transpose(&self.about.sf, self.blocks.free),
-            w: &self.v,
-            columns: self.blocks.slip,
+    ///
+    /// Where V is W and T_sf' is T_fs, l is r.
+    fn left_residual_norms(&self, right: &Residual) -> Norms {
+        let left = self.anchor.left.unwrap_or(self.anchor.right);
+        let c = transpose(&self.about.sf, self.blocks.free);
+        let equations = ResidualEquations::new(&self.about.ff, c, left, &self.blocks.factor);
+        if self.anchor.left.is_none() && equations.is_that_of(&self.right_equations()) {
+            return right.norms(&equations.column_factors);
         }
-        .residual(BeyondDegree::Dropped)
-        .norms()
+
+        let residual = equations.residual(BeyondDegree::Dropped);
+        residual.norms(&equations.column_factors)
     }
 
     /// The condensed pencil about the anchor; `right` is that of this anchor or of the other
@@ -787,12 +768,12 @@ impl AnchorElimination<'_> {
         let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
 
         let z = self.bracket(right);
-        let right_norms = right.norms();
+        let right_norms = right.norms(&ones(self.blocks.slip));
         let rounding = self.w.coefficients.len().min(right_norms.len());
         Expanded {
             center: self.anchor.center.clone(),
             z: raise_rows(z, &raised),
-            left: self.left_residual_norms(),
+            left: self.left_residual_norms(right),
             rounding: right_norms[..rounding].to_vec(),
             right: right_norms,
             v: self.v.coefficients.iter().map(Coefficient::norms).collect(),
@@ -889,75 +870,6 @@ pub(super) fn transpose(m: &Linear, cols: usize) -> Linear {
     transposed
 }
 
-/// F(d) W(d) = C(d), which a polynomial W solves up to a residual.
-struct ResidualEquations<'a> {
-    f: &'a Linear,
-    c: &'a Linear,
-    w: &'a MatrixPolynomial<'a>,
-    /// Columns of C and W.
-    columns: usize,
-}
-
-/// Are the coefficients of a residual beyond the degree of W kept?
-#[derive(Clone, Copy, PartialEq)]
-enum BeyondDegree {
-    Kept,
-    Dropped,
-}
-
-impl ResidualEquations<'_> {
-    /// C(d) - F(d) W(d), in the units of W.
-    fn residual(&self, beyond: BeyondDegree) -> Residual {
-        let within = self.w.coefficients.len();
-        let mut squares = vec![vec![Integer::zero(); self.columns]; self.terms()];
-        let mut kept = match beyond {
-            BeyondDegree::Kept => {
-                vec![LongMatrix::with_capacity(self.f.len()); self.terms() - within]
-            }
-            BeyondDegree::Dropped => Vec::new(),
-        };
-
-        for i in 0..self.f.len() {
-            let row = self.residual_row(i);
-            for (squares, entries) in squares.iter_mut().zip(&row) {
-                add_squares(squares, entries.iter());
-            }
-
-            for (matrix, entries) in kept.iter_mut().zip(row.into_iter().skip(within)) {
-                matrix.push(entries);
-            }
-        }
-
-        Residual {
-            squares,
-            beyond: kept,
-        }
-    }
-
-    /// Coefficients of the residual: C is linear, and the product has one more than W.
-    fn terms(&self) -> usize {
-        (self.w.coefficients.len() + 1).max(2)
-    }
-
-    /// Row i of each coefficient of the residual.
-    fn residual_row(&self, i: usize) -> Vec<Vec<Integer>> {
-        let mut residual = vec![vec![Integer::zero(); self.columns]; self.terms()];
-        for (j, constant, linear) in &self.c[i] {
-            residual[0][*j] += constant << self.w.exponent;
-            residual[1][*j] += linear << self.w.exponent;
-        }
-
-        for (part, first_power) in [(LinearPart::Constant, 0), (LinearPart::Linear, 1)] {
-            let f = row_of(&self.f[i], part);
-            for (power, w_k) in (first_power..).zip(&self.w.coefficients) {
-                w_k.subtract_row_product(&f, &mut residual[power]);
-            }
-        }
-
-        residual
-    }
-}
-
 impl Coefficient<'_> {
     /// The product of `left` and this matrix.
     fn times_from_left(&self, left: &NonzeroRows<'_>) -> LongMatrix {
@@ -969,15 +881,6 @@ impl Coefficient<'_> {
         }
 
         product
-    }
-
-    /// Subtracts from `target` the product of a row and this matrix.
-    fn subtract_row_product(&self, row: &[(usize, &Integer)], target: &mut [Integer]) {
-        let product = row_times(row, self.matrix, self.column_factors.len());
-        let factors = &self.column_factors;
-        for ((target, entry), factor) in target.iter_mut().zip(product).zip(factors) {
-            *target -= entry * factor;
-        }
     }
 
     /// Upper bounds of the Euclidean norms of the columns, in units of 2^-[`NORM_BITS`].

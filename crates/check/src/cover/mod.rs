@@ -19,7 +19,7 @@
 //! (`found`).
 //!
 //! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
-//! half line. `ball`, `product`, `enclosed_definite` and `psd` are the arithmetic behind it, and
+//! half line. `ball`, `product`, `residual`, `enclosed_definite` and `psd` are the arithmetic behind it, and
 //! `spread` is what the radii of the data add. `walk` goes through the trees, and `budget` bounds
 //! the work.
 //!
@@ -60,6 +60,7 @@ mod proved;
 mod psd;
 mod region;
 mod regular;
+mod residual;
 mod root;
 mod rootless;
 mod sign_budget;

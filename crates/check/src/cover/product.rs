@@ -1,16 +1,17 @@
 //! The product of a matrix of long integers and one of short integers, exactly.
 //!
 //! The entries of the pencil are long and those of W and V short, as a rule below 2^62
-//! ([`IntegerRow`]). So an entry of the left factor is cut into digits of 32 bits that have its
-//! sign,
+//! ([`IntegerRow`]). So an entry of the left factor is cut into digits of `width` bits that have
+//! its sign,
 //!
 //! ```text
-//!     v = sum_k v_k 2^(32 k),    |v_k| < 2^32,
+//!     v = sum_k v_k 2^(width k),    |v_k| < 2^width,
 //! ```
 //!
-//! and for each k the sum of v_k w over a row and a column is formed in 128 bits, which hold 2^33
-//! such products. Where an entry of the right factor is longer, or one of the left factor has many
-//! digits, the sums are formed in long integers; the result is the same. Called by `condensed`.
+//! and for each k the sum of v_k w over a row and a column is formed in 128 bits. The width is the
+//! largest with which these sums stay below 2^126 in modulus. Where an entry of the right factor is
+//! longer, or one of the left factor has many digits, the sums are formed in long integers; the
+//! result is the same. Called by `condensed` and `residual`.
 
 use super::ends::{LongMatrix, largest_bits};
 use crate::certificate::IntegerRow;
@@ -18,8 +19,10 @@ use crate::pencil::Row;
 use mceip_exact::Integer;
 use num_traits::{Signed, Zero};
 
-/// Bits of a digit.
-const DIGIT_BITS: u32 = 32;
+/// Bits of a digit, at most: a digit is a machine integer.
+const MOST_DIGIT_BITS: u32 = 62;
+/// Bits of a sum of products of digits.
+const SUM_BITS: u32 = 126;
 /// Rows of the left factor with at most this many digits are cut: to join the digits takes time
 /// with the square of their number.
 const MOST_DIGITS: u64 = 64;
@@ -79,69 +82,179 @@ pub(super) fn times(left: &NonzeroRows<'_>, right: &[IntegerRow], columns: usize
 }
 
 /// One row of such a product.
-pub(super) fn row_times(
-    row: &[(usize, &Integer)],
-    right: &[IntegerRow],
-    columns: usize,
-) -> Vec<Integer> {
-    let digits = digits_of(row);
-    let short_rows = row.iter().map(|(g, _)| right[*g].as_short());
-    let short_rows: Option<Vec<&[i64]>> = short_rows.collect();
+fn row_times(row: &[(usize, &Integer)], right: &[IntegerRow], columns: usize) -> Vec<Integer> {
+    let terms = row.iter().map(|(g, entry)| ((*entry).clone(), &right[*g]));
+    let terms: Vec<Term<'_>> = terms.collect();
+    let sums = RowSum::of(&terms, &[], columns);
+    sums.entries().map(Integer::from).collect()
+}
 
-    match short_rows {
-        Some(short_rows) if digits <= MOST_DIGITS => {
-            row_by_digits(row, digits, &short_rows, columns)
-        }
-        _ => long_row(row, right, columns),
+/// A long integer and the row that it multiplies.
+pub(super) type Term<'a> = (Integer, &'a IntegerRow);
+
+/// A sum of rows, each times a long integer.
+pub(super) enum RowSum {
+    /// The sums for each digit, one digit at least, and the width of a digit.
+    Digits(Vec<Vec<i128>>, u32),
+    Long(Vec<Integer>),
+}
+
+/// An entry of such a sum.
+pub(super) enum SumEntry {
+    Short(i128),
+    Long(Integer),
+}
+
+impl RowSum {
+    /// The sum of the terms, and of the `addends` in their columns, one a column at most.
+    pub(super) fn of(terms: &[Term<'_>], addends: &[(usize, Integer)], columns: usize) -> RowSum {
+        RowSum::by_digits(terms, addends, columns)
+            .unwrap_or_else(|| RowSum::in_long_integers(terms, addends, columns))
     }
-}
 
-/// Digits of the longest entry.
-fn digits_of(row: &[(usize, &Integer)]) -> u64 {
-    let bits = largest_bits(row.iter().map(|(_, entry)| *entry));
-    bits.div_ceil(DIGIT_BITS.into())
-}
+    /// `None` where a row is long or the integers have too many digits.
+    fn by_digits(
+        terms: &[Term<'_>],
+        addends: &[(usize, Integer)],
+        columns: usize,
+    ) -> Option<RowSum> {
+        let short_rows: Option<Vec<&[i64]>> = terms.iter().map(|(_, row)| row.as_short()).collect();
+        let short_rows = short_rows?;
 
-/// A row of the product: the sums for each digit, joined. `right` has the row of each entry.
-fn row_by_digits(
-    row: &[(usize, &Integer)],
-    digits: u64,
-    right: &[&[i64]],
-    columns: usize,
-) -> Vec<Integer> {
-    let mut sums = vec![vec![0i128; columns]; digits as usize];
+        // So many products of a digit and an entry, and one addend, are below 2^126.
+        let products = u64::BITS - (terms.len() as u64 + 1).leading_zeros();
+        let row_bits = terms.iter().map(|(_, row)| row.bits()).max().unwrap_or(0);
+        let width = SUM_BITS.checked_sub(products + row_bits as u32)?;
+        if width == 0 {
+            return None;
+        }
 
-    for ((_, entry), right) in row.iter().zip(right) {
-        let sign = if entry.is_negative() { -1 } else { 1 };
-        for (sums_of_digit, digit) in sums.iter_mut().zip(entry.iter_u32_digits()) {
-            let digit = sign * i64::from(digit);
-            for (sum, w) in sums_of_digit.iter_mut().zip(*right) {
-                *sum += i128::from(digit) * i128::from(*w);
+        let width = width.min(MOST_DIGIT_BITS);
+
+        let factors = terms.iter().map(|(factor, _)| factor);
+        let longest = largest_bits(factors.chain(addends.iter().map(|(_, addend)| addend)));
+        let count = longest.div_ceil(width.into()).max(1);
+        if count > MOST_DIGITS {
+            return None;
+        }
+
+        let mut sums = vec![vec![0i128; columns]; count as usize];
+        for ((factor, _), row) in terms.iter().zip(short_rows) {
+            for (sums_of_digit, digit) in sums.iter_mut().zip(digits(factor, width)) {
+                for (sum, w) in sums_of_digit.iter_mut().zip(row) {
+                    *sum += i128::from(digit) * i128::from(*w);
+                }
+            }
+        }
+
+        for (column, addend) in addends {
+            for (sums_of_digit, digit) in sums.iter_mut().zip(digits(addend, width)) {
+                sums_of_digit[*column] += i128::from(digit);
+            }
+        }
+
+        Some(RowSum::Digits(sums, width))
+    }
+
+    fn in_long_integers(
+        terms: &[Term<'_>],
+        addends: &[(usize, Integer)],
+        columns: usize,
+    ) -> RowSum {
+        let mut sums = vec![Integer::zero(); columns];
+        for (factor, row) in terms {
+            for (sum, w) in sums.iter_mut().zip(row.iter()) {
+                *sum += factor * &*w;
+            }
+        }
+
+        for (column, addend) in addends {
+            sums[*column] += addend;
+        }
+
+        RowSum::Long(sums)
+    }
+
+    /// The entries, column by column.
+    pub(super) fn entries(&self) -> impl Iterator<Item = SumEntry> {
+        let columns = match self {
+            RowSum::Digits(sums, _) => sums[0].len(),
+            RowSum::Long(sums) => sums.len(),
+        };
+        (0..columns).map(|column| self.entry(column))
+    }
+
+    fn entry(&self, column: usize) -> SumEntry {
+        match self {
+            RowSum::Long(sums) => SumEntry::Long(sums[column].clone()),
+            RowSum::Digits(sums, width) => {
+                let of_digits = sums.iter().map(|of_digit| of_digit[column]);
+                match joined_short(of_digits.clone(), *width) {
+                    Some(value) => SumEntry::Short(value),
+                    None => SumEntry::Long(joined_long(of_digits, *width)),
+                }
             }
         }
     }
-
-    let mut joined = vec![Integer::zero(); columns];
-    for sums_of_digit in sums.iter().rev() {
-        for (value, sum) in joined.iter_mut().zip(sums_of_digit) {
-            *value <<= DIGIT_BITS;
-            *value += *sum;
-        }
-    }
-
-    joined
 }
 
-/// A row of the product in long integers.
-fn long_row(row: &[(usize, &Integer)], right: &[IntegerRow], columns: usize) -> Vec<Integer> {
-    let mut sums = vec![Integer::zero(); columns];
-    for (g, entry) in row {
-        for (sum, w) in sums.iter_mut().zip(right[*g].iter()) {
-            *sum += *entry * &*w;
+impl From<SumEntry> for Integer {
+    fn from(entry: SumEntry) -> Integer {
+        match entry {
+            SumEntry::Short(value) => value.into(),
+            SumEntry::Long(value) => value,
         }
     }
+}
 
-    sums
+/// The digits of this width of an integer, the lowest first, with its sign.
+fn digits(value: &Integer, width: u32) -> impl Iterator<Item = i64> {
+    let sign = if value.is_negative() { -1 } else { 1 };
+    let mask = (1u128 << width) - 1;
+    let mut words = value.iter_u64_digits();
+    let mut held: u128 = 0;
+    let mut held_bits = 0;
+
+    std::iter::from_fn(move || {
+        if held_bits < width
+            && let Some(word) = words.next()
+        {
+            held |= u128::from(word) << held_bits;
+            held_bits += u64::BITS;
+        }
+
+        let is_over = held == 0 && words.len() == 0;
+        let digit = (held & mask) as i64;
+        held >>= width;
+        held_bits = held_bits.saturating_sub(width);
+        (!is_over).then_some(sign * digit)
+    })
+}
+
+/// sum_k s_k 2^(width k) in 128 bits; `None` where that is too long.
+fn joined_short(sums: impl DoubleEndedIterator<Item = i128>, width: u32) -> Option<i128> {
+    let mut value: i128 = 0;
+    for sum in sums.rev() {
+        // |value| < 2^127 after the shift.
+        if value.unsigned_abs().leading_zeros() <= width {
+            return None;
+        }
+
+        value = (value << width).checked_add(sum)?;
+    }
+
+    Some(value)
+}
+
+/// The same in a long integer.
+fn joined_long(sums: impl DoubleEndedIterator<Item = i128>, width: u32) -> Integer {
+    let mut value = Integer::zero();
+    for sum in sums.rev() {
+        value <<= width;
+        value += sum;
+    }
+
+    value
 }
 
 #[cfg(test)]

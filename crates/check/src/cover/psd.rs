@@ -8,13 +8,16 @@
 //! `condensed` for its hypotheses.
 
 use super::fault::CoverFault;
-use crate::certificate::Factor;
+use crate::certificate::{Factor, IntegerRow};
 use mceip_exact::{Dominance, Integer};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
 /// Largest binary exponent of a factor.
 const MAX_EXPONENT: u32 = 1 << 12;
+
+/// Bits of a sum of products in machine integers, beside its sign.
+const MACHINE_BITS: u64 = 127;
 
 /// A symmetric matrix by rows: column to entry.
 pub(super) type SymmetricRows = Vec<BTreeMap<usize, Integer>>;
@@ -61,12 +64,13 @@ fn is_diagonal_row(s: &SymmetricRows, i: usize, strictly: bool) -> bool {
 /// The rows of E = S - L L', in units of 1 / (scale 4^exponent).
 fn residual(s: &SymmetricRows, scale: &Integer, factor: &Factor) -> Dominance<Integer> {
     let lift = Integer::one() << (2 * factor.exponent);
+    let bits: Vec<u64> = factor.rows.iter().map(IntegerRow::bits).collect();
     let mut rows = Dominance::zero(s.len());
 
     for (i, row) in s.iter().enumerate() {
         let first_of_s = row.keys().next().copied().unwrap_or(i);
         for j in factor.first[i].min(first_of_s)..=i {
-            let mut residual = -product(factor, i, j) * scale;
+            let mut residual = -product(factor, &bits, i, j) * scale;
             if let Some(given) = row.get(&j) {
                 residual += given * &lift;
             }
@@ -79,11 +83,22 @@ fn residual(s: &SymmetricRows, scale: &Integer, factor: &Factor) -> Dominance<In
 }
 
 /// (L L')_ij for j <= i: the sum over the columns that both rows hold, up to j, where row j ends.
-fn product(factor: &Factor, i: usize, j: usize) -> Integer {
+fn product(factor: &Factor, bits: &[u64], i: usize, j: usize) -> Integer {
     let start = factor.first[i].max(factor.first[j]);
-    let left = factor.rows[i].iter().skip(start - factor.first[i]);
-    let right = factor.rows[j].iter().skip(start - factor.first[j]);
+    let row_parts = [i, j].map(|row| (&factor.rows[row], start - factor.first[row]));
+    let count = (j + 1).saturating_sub(start) as u64;
+    let count_bits = u64::from(u64::BITS - count.leading_zeros());
 
+    let short = row_parts.map(|(row, from)| row.as_short().and_then(|row| row.get(from..)));
+    if let [Some(left), Some(right)] = short
+        && bits[i] + bits[j] + count_bits <= MACHINE_BITS
+    {
+        let products = left.iter().zip(right);
+        let products = products.map(|(p, q)| i128::from(*p) * i128::from(*q));
+        return products.sum::<i128>().into();
+    }
+
+    let [left, right] = row_parts.map(|(row, from)| row.iter().skip(from));
     let mut sum = Integer::zero();
     for (p, q) in left.zip(right) {
         sum += &*p * &*q;
