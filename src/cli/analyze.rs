@@ -17,16 +17,16 @@ use super::question::load_system;
 use crate::Analyze;
 use crate::say::{number_text, warnings_text};
 use mceip_engine::analysis::{
-    Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, Verdict,
+    Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, ProofCertificate, Verdict,
 };
-use mceip_engine::lean::{LeanError, shorten_file};
+use mceip_engine::lean::LeanError;
 use mceip_engine::run::{Kept, Watch};
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::file::SystemFile;
 use mceip_model::{System, Window};
 use num_traits::Signed;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
@@ -218,8 +218,8 @@ struct Proofs {
     folder: Folder,
     /// Are they written without what can be made anew?
     is_lean: bool,
-    /// The names of the proofs written so far.
-    written: Mutex<BTreeSet<String>>,
+    /// The proofs written so far, by name.
+    written: Mutex<BTreeMap<String, ProofCertificate>>,
 }
 
 impl Proofs {
@@ -234,9 +234,8 @@ impl Proofs {
 
     /// Writes a proof; in full where an interrupt leaves no time for its lean form.
     fn keep(&self, kept: &Kept<'_>, watch: &Watch<'_>) -> Result<(), CliError> {
-        self.written().insert(kept.name.to_owned());
         let lean = if self.is_lean {
-            match shorten_file(kept.problem, kept.certificate, watch) {
+            match kept.certificate.lean_file(kept.problem, watch) {
                 Err(LeanError::Interrupted) => None,
                 shortened => shortened?,
             }
@@ -244,11 +243,14 @@ impl Proofs {
             None
         };
 
-        let certificate = lean.as_deref().unwrap_or(kept.certificate);
-        self.folder.write_proof(&Kept {
-            certificate,
-            ..*kept
-        })
+        let text = match lean {
+            Some(lean) => lean,
+            None => kept.certificate.file()?,
+        };
+        self.folder.write_proof(kept.name, kept.problem, &text)?;
+        let name = kept.name.to_owned();
+        self.written().insert(name, kept.certificate.clone());
+        Ok(())
     }
 
     /// Writes all proofs of the analysis, and removes those that others have taken the place of;
@@ -257,18 +259,23 @@ impl Proofs {
         let mut superseded = std::mem::take(&mut *self.written());
         let mut paths = Vec::new();
         for proof in &analysis.proofs {
-            let kept = Kept {
-                name: &proof.name,
-                problem: &proof.problem,
-                certificate: &proof.certificate.file()?,
-            };
-            self.keep(&kept, watch)?;
-            superseded.remove(&proof.name);
+            let written = superseded.remove(&proof.name);
+            let is_written = written.is_some_and(|written| written.is_clone_of(&proof.certificate));
+            if !is_written {
+                self.keep(
+                    &Kept {
+                        name: &proof.name,
+                        problem: &proof.problem,
+                        certificate: &proof.certificate,
+                    },
+                    watch,
+                )?;
+            }
             let path = self.folder.certificate_path(&proof.name);
             paths.push(path.display().to_string());
         }
 
-        for name in superseded {
+        for name in superseded.into_keys() {
             self.folder.remove_proof(&name);
         }
 
@@ -276,7 +283,7 @@ impl Proofs {
     }
 
     /// A thread that panicked with the lock leaves the set whole.
-    fn written(&self) -> MutexGuard<'_, BTreeSet<String>> {
+    fn written(&self) -> MutexGuard<'_, BTreeMap<String, ProofCertificate>> {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -106,7 +106,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     if let Some(output) = output.as_ref().filter(|output| !output.is_device()) {
         search = search.keep(every, |kept| {
-            let written = output.write(kept.certificate);
+            let text = kept.certificate.file().map_err(CliError::from);
+            let written = text.and_then(|text| output.write(&text));
             say_checkpoint(&job, &written, args, has_said.swap(true, Ordering::Relaxed));
         });
     }

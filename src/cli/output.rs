@@ -3,7 +3,7 @@
 
 use super::common::{CliError, aside, text};
 use mceip_check::{Provable, Proved};
-use mceip_engine::run::Kept;
+use mceip_model::Problem;
 use mceip_model::file::write_problem;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -308,8 +308,8 @@ impl Folder {
     }
 
     /// The same for a proof.
-    pub(super) fn keep_proof(&self, proof: &Kept<'_>) {
-        self.note(self.write_proof(proof));
+    pub(super) fn keep_proof(&self, name: &str, problem: &Problem, certificate: &str) {
+        self.note(self.write_proof(name, problem, certificate));
     }
 
     /// What was made; a failure is told at the end of the run.
@@ -340,16 +340,22 @@ impl Folder {
     /// Writes a proof as NAME.problem.json and NAME.certificate.json, the problem first. A
     /// certificate of an earlier run goes before its problem is replaced: a run that is killed
     /// between the two leaves no pair that does not belong together.
-    pub(super) fn write_proof(&self, proof: &Kept<'_>) -> Result<(), CliError> {
-        let [problem, certificate] = proof_files(proof.name);
-        let [problem, certificate] = [self.output(&problem)?, self.output(&certificate)?];
+    pub(super) fn write_proof(
+        &self,
+        name: &str,
+        problem: &Problem,
+        certificate: &str,
+    ) -> Result<(), CliError> {
+        let [problem_file, certificate_file] = proof_files(name);
+        let problem_output = self.output(&problem_file)?;
+        let certificate_output = self.output(&certificate_file)?;
 
-        let text = write_problem(proof.problem);
-        if !problem.holds(&text) {
-            certificate.remove()?;
-            problem.write(&text)?;
+        let text = write_problem(problem);
+        if !problem_output.holds(&text) {
+            certificate_output.remove()?;
+            problem_output.write(&text)?;
         }
-        certificate.write(proof.certificate)
+        certificate_output.write(certificate)
     }
 
     /// Where the certificate of a proof is.

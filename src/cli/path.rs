@@ -19,7 +19,7 @@ use crate::say::counted;
 use crate::say::path::candidate_name;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical, PathAnalysis};
 use mceip_engine::equilibrium::StatesNotCertified;
-use mceip_engine::run::{Kept, Progress, Watch};
+use mceip_engine::run::{Progress, Watch};
 use mceip_exact::Rational;
 use mceip_model::Unknown;
 use mceip_model::file::{LoadsFile, folder_of, read_loads, write_problem};
@@ -520,11 +520,8 @@ fn certify_stretches(
         // What fails here takes nothing else along: these rates are not certified.
         let rates = followed.certify_unique(k, job.cancel()).ok().flatten();
         if let Some(rates) = &rates {
-            folder.keep_proof(&Kept {
-                name: &format!("unique-{k:03}"),
-                problem: rates.problem(),
-                certificate: &rates.proved().file()?,
-            });
+            let name = format!("unique-{k:03}");
+            folder.keep_proof(&name, rates.problem(), &rates.proved().file()?);
             unique.push(k);
         }
         certified.push(StretchCertification {

@@ -16,6 +16,7 @@ use crate::{
 use crate::{allowed_work, audit, audit_critical, work_of};
 use crate::{check, check_critical, check_equilibrium, check_presence, check_stability};
 use mceip_model::{LoadedBody, ModelError, Problem};
+use std::sync::Arc;
 
 /// The kinds are those of this crate: nobody else says what is accepted.
 mod sealed {
@@ -95,10 +96,10 @@ provable!(
     check_equilibrium
 );
 
-/// A certificate that is accepted as a whole.
+/// A certificate that is accepted as a whole. Clones share it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Proved<C: Provable> {
-    certificate: C,
+    certificate: Arc<C>,
     accepted: C::Accepted,
 }
 
@@ -110,7 +111,7 @@ impl<C: Provable> Proved<C> {
     pub fn new(subject: &C::Subject, certificate: C) -> Result<Proved<C>, Rejected> {
         let accepted = certificate.check(subject)?;
         Ok(Proved {
-            certificate,
+            certificate: Arc::new(certificate),
             accepted,
         })
     }
@@ -121,8 +122,16 @@ impl<C: Provable> Proved<C> {
     }
 
     /// The certificate, to be changed: what comes of it is proved no longer.
-    pub fn into_certificate(self) -> C {
-        self.certificate
+    pub fn into_certificate(self) -> C
+    where
+        C: Clone,
+    {
+        Arc::unwrap_or_clone(self.certificate)
+    }
+
+    /// Is this a clone of the other one?
+    pub fn is_clone_of(&self, other: &Proved<C>) -> bool {
+        Arc::ptr_eq(&self.certificate, &other.certificate)
     }
 
     /// What it has proved.
@@ -138,7 +147,7 @@ impl<C: Provable> Proved<C> {
     pub fn file(&self) -> Result<String, ModelError> {
         let text = self.certificate.text();
         let again = C::read(&text)?;
-        if again == self.certificate {
+        if again == *self.certificate {
             Ok(text)
         } else {
             Err(ModelError::NotAsWritten)
@@ -182,7 +191,7 @@ impl Proved<Certificate> {
         }
 
         let proved = Proved {
-            certificate,
+            certificate: Arc::new(certificate),
             accepted,
         };
         Ok((proved, refused))
@@ -230,7 +239,7 @@ impl Proved<CriticalCertificate> {
         match audit_critical(problem, &certificate, go_on)? {
             None => Ok(None),
             Some((accepted, refused)) if refused.is_empty() => Ok(Some(Proved {
-                certificate,
+                certificate: Arc::new(certificate),
                 accepted,
             })),
             Some(_) => Proved::new(problem, certificate).map(Some),

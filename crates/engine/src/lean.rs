@@ -256,9 +256,10 @@ pub fn elaborate<C: HasAnchors>(
 /// [`LeanError`]: it is about another problem, or an interrupt.
 pub fn shorten<C: HasAnchors>(
     problem: &Problem,
-    mut certificate: C,
+    certificate: &C,
     watch: &Watch<'_>,
 ) -> Result<Option<String>, LeanError> {
+    let mut certificate = certificate.clone();
     let may_be_left_out =
         |list: &[IntegerMatrix]| !is_left_out(list) && require_makeable(list).is_ok();
     visit(
@@ -470,7 +471,7 @@ pub fn shorten_file(
         text: &str,
         watch: &Watch<'_>,
     ) -> Result<Option<String>, LeanError> {
-        shorten(problem, C::read(text)?, watch)
+        shorten(problem, &C::read(text)?, watch)
     }
 
     match AnchoredKind::of(text) {

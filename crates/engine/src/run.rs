@@ -4,7 +4,7 @@
 //! found by then is kept and returned; what it has not examined is left open. It calls
 //! [`Watch::report`] with its [`Progress`] after each step.
 
-use mceip_check::{Provable, Proved};
+use crate::analysis::ProofCertificate;
 use mceip_model::Problem;
 use std::fmt;
 use std::sync::Arc;
@@ -138,8 +138,8 @@ pub struct Kept<'a> {
     pub name: &'a str,
     /// The problem.
     pub problem: &'a Problem,
-    /// The certificate, as it is written to a file. A complete set may leave regions open.
-    pub certificate: &'a str,
+    /// The certificate. A complete set may leave regions open.
+    pub certificate: &'a ProofCertificate,
 }
 
 /// A keeper of what a run has proved; it may be called from several threads.
@@ -159,18 +159,7 @@ impl<'a> Keeper<'a> {
         Keeper { every, on_proof }
     }
 
-    /// Hands a certificate over; one that cannot be written as it was accepted is passed over.
-    pub fn keep<C: Provable>(&self, name: &str, problem: &Problem, proved: &Proved<C>) {
-        if let Ok(certificate) = proved.file() {
-            self.hand_over(&Kept {
-                name,
-                problem,
-                certificate: &certificate,
-            });
-        }
-    }
-
-    /// Hands over what a keeper of a part of the run has got.
+    /// Hands over what is proved, or what a keeper of a part of the run has got.
     pub fn hand_over(&self, kept: &Kept<'_>) {
         (self.on_proof)(kept);
     }

@@ -16,7 +16,6 @@ use crate::{
     OwnCritical, PathPlace,
 };
 use mceip_engine::analysis::{Proof, Verdict};
-use mceip_engine::run::Kept;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::read_text;
 
@@ -110,11 +109,7 @@ pub(super) fn keep_frozen(folder: &Folder, own: &OwnCritical) {
 
 fn keep_proof(folder: &Folder, name: &str, proof: &Proof) {
     if let Some(certificate) = folder.made(proof.certificate.file()) {
-        folder.keep_proof(&Kept {
-            name,
-            problem: &proof.problem,
-            certificate: &certificate,
-        });
+        folder.keep_proof(name, &proof.problem, &certificate);
     }
 }
 

@@ -1,6 +1,8 @@
 //! What stands behind a sentence: certificates accepted by the checker, exact conditions,
 //! measurements.
 
+use crate::lean::{LeanError, shorten};
+use crate::run::Watch;
 use mceip_check::Proved;
 use mceip_check::certificate::{
     Certificate, CriticalCertificate, PresenceCertificate, StabilityCertificate,
@@ -75,6 +77,34 @@ impl ProofCertificate {
             ProofCertificate::Absence(proved) => proved.file(),
             ProofCertificate::Presence(proved) => proved.file(),
             ProofCertificate::Stability(proved) => proved.file(),
+        }
+    }
+
+    /// The text of its lean file; `None` where nothing can be left out.
+    ///
+    /// # Errors
+    /// As [`shorten`].
+    pub fn lean_file(
+        &self,
+        problem: &Problem,
+        watch: &Watch<'_>,
+    ) -> Result<Option<String>, LeanError> {
+        match self {
+            ProofCertificate::Solutions(proved) => shorten(problem, proved.certificate(), watch),
+            ProofCertificate::Absence(proved) => shorten(problem, proved.certificate(), watch),
+            ProofCertificate::Presence(proved) => shorten(problem, proved.certificate(), watch),
+            ProofCertificate::Stability(_) => Ok(None),
+        }
+    }
+
+    /// Is this a clone of the other one?
+    pub fn is_clone_of(&self, other: &ProofCertificate) -> bool {
+        match (self, other) {
+            (ProofCertificate::Solutions(p), ProofCertificate::Solutions(q)) => p.is_clone_of(q),
+            (ProofCertificate::Absence(p), ProofCertificate::Absence(q)) => p.is_clone_of(q),
+            (ProofCertificate::Presence(p), ProofCertificate::Presence(q)) => p.is_clone_of(q),
+            (ProofCertificate::Stability(p), ProofCertificate::Stability(q)) => p.is_clone_of(q),
+            _ => false,
         }
     }
 }

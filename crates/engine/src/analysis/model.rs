@@ -122,18 +122,14 @@ impl AnalysisModel<'_> {
 
     /// Hands a proof over to the keeper of the run, if there is one.
     pub(super) fn keep(&self, name: &str, problem: &Problem, certificate: &ProofCertificate) {
-        if self.watch.keeper().is_some()
-            && let Ok(certificate) = &certificate.file()
-        {
-            self.keep_as(
+        self.keep_as(
+            name,
+            &Kept {
                 name,
-                &Kept {
-                    name,
-                    problem,
-                    certificate,
-                },
-            );
-        }
+                problem,
+                certificate,
+            },
+        );
     }
 
     fn keep_as(&self, name: &str, kept: &Kept<'_>) {

@@ -9,11 +9,12 @@
 //!
 //! Called by `rounds`; `tree` and `splice` hand over the copies.
 
-use super::audited::audited;
+use super::audited::{Audited, audited};
 use super::region::Item;
 use super::splice::numbered;
+use crate::analysis::ProofCertificate;
 use crate::certify::certificate;
-use crate::run::Keeper;
+use crate::run::{Keeper, Kept};
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node};
 use mceip_model::Problem;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -213,9 +214,18 @@ impl Checkpoints<'_> {
 
         // What is refused as a whole here is searched again in the rounds to come.
         if let Ok(audited) = audited(certificate, self.problem) {
-            self.keeper.keep("", self.problem, &audited.proved);
+            keep_solutions(&self.keeper, self.problem, &audited);
         }
     }
+}
+
+/// Hands over what a search has proved so far.
+pub(super) fn keep_solutions(keeper: &Keeper<'_>, problem: &Problem, audited: &Audited) {
+    keeper.hand_over(&Kept {
+        name: "",
+        problem,
+        certificate: &ProofCertificate::Solutions(audited.proved.clone()),
+    });
 }
 
 /// Has the work ended before so much time is over?
@@ -226,7 +236,7 @@ fn has_ended(end: &Receiver<()>, wait: Duration) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Kept, Watch};
+    use crate::run::Watch;
     use crate::search::complete::{CompleteOptions, Completed, complete, resume};
     use mceip_check::check;
     use mceip_exact::Sparse;
@@ -284,7 +294,8 @@ mod tests {
     fn kept(problem: &Problem, earlier: Option<&Certificate>) -> (Vec<Certificate>, Completed) {
         let kept = Mutex::new(Vec::new());
         let keep = |proved: &Kept<'_>| {
-            let certificate = Certificate::from_json(proved.certificate).unwrap();
+            let text = proved.certificate.file().unwrap();
+            let certificate = Certificate::from_json(&text).unwrap();
             kept.lock().unwrap().push(certificate);
         };
         let keeper = Keeper::new(Duration::from_millis(1), &keep);

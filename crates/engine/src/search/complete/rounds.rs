@@ -9,7 +9,7 @@
 //! Called by `complete` and `resume`.
 
 use super::audited::{Audited, audited};
-use super::checkpoint::{Checkpoints, Snapshots};
+use super::checkpoint::{Checkpoints, Snapshots, keep_solutions};
 use super::error::CompleteError;
 use super::given::Given;
 use super::options::CompleteOptions;
@@ -80,7 +80,7 @@ impl Rounds<'_> {
         if let Some(keeper) = watch.keeper()
             && begun.elapsed() >= keeper.every
         {
-            keeper.keep("", self.given.problem, &audited.proved);
+            keep_solutions(&keeper, self.given.problem, &audited);
         }
     }
 
