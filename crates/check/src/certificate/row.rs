@@ -3,6 +3,7 @@
 //! A certificate of a large body holds millions of integers of some 40 bits. A row whose entries
 //! all have at most [`SHORT_BITS`] bits is kept in machine integers, eight bytes an entry; a row
 //! with a longer entry is kept in long integers. Which of the two follows from the entries alone.
+//! Clones of a row share its entries: an engine has the same matrices in several places.
 //! In a file a row is a list of integers, each a string or a number. Used by `cover` (the data) and
 //! by the checks of condensations and factors.
 
@@ -13,6 +14,7 @@ use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
+use std::sync::Arc;
 
 /// Bits of the entries of a short row, at most. The checker sums 2^33 products of such an entry
 /// and of a digit of 32 bits in 128 bits.
@@ -25,9 +27,35 @@ pub struct IntegerRow(Entries);
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Entries {
     /// All of them have at most [`SHORT_BITS`] bits.
-    Short(Vec<i64>),
+    Short(Arc<[i64]>),
     /// One of them is longer.
+    Long(Arc<[Integer]>),
+}
+
+/// A row to which integers are appended.
+enum Growing {
+    Short(Vec<i64>),
     Long(Vec<Integer>),
+}
+
+impl Growing {
+    fn push(&mut self, entry: Integer) {
+        match self {
+            Growing::Short(row) if entry.bits() <= SHORT_BITS => row.extend(entry.to_i64()),
+            Growing::Short(row) => {
+                let before = row.drain(..).map(Integer::from);
+                *self = Growing::Long(before.chain([entry]).collect());
+            }
+            Growing::Long(row) => row.push(entry),
+        }
+    }
+
+    fn into_row(self) -> IntegerRow {
+        IntegerRow(match self {
+            Growing::Short(row) => Entries::Short(row.into()),
+            Growing::Long(row) => Entries::Long(row.into()),
+        })
+    }
 }
 
 impl IntegerRow {
@@ -89,17 +117,6 @@ impl IntegerRow {
         *self = list.into();
     }
 
-    fn push(&mut self, entry: Integer) {
-        match &mut self.0 {
-            Entries::Short(row) if entry.bits() <= SHORT_BITS => row.extend(entry.to_i64()),
-            Entries::Short(row) => {
-                let before = row.drain(..).map(Integer::from);
-                self.0 = Entries::Long(before.chain([entry]).collect());
-            }
-            Entries::Long(row) => row.push(entry),
-        }
-    }
-
     /// The integers in machine integers, if all have at most [`SHORT_BITS`] bits.
     pub(crate) fn as_short(&self) -> Option<&[i64]> {
         match &self.0 {
@@ -113,12 +130,12 @@ impl FromIterator<Integer> for IntegerRow {
     fn from_iter<I: IntoIterator<Item = Integer>>(integers: I) -> IntegerRow {
         let integers = integers.into_iter();
         let capacity = integers.size_hint().0;
-        let mut row = IntegerRow(Entries::Short(Vec::with_capacity(capacity)));
+        let mut row = Growing::Short(Vec::with_capacity(capacity));
         for entry in integers {
             row.push(entry);
         }
 
-        row
+        row.into_row()
     }
 }
 
@@ -150,12 +167,12 @@ impl<'de> Visitor<'de> for RowVisitor {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<IntegerRow, A::Error> {
-        let mut row = IntegerRow(Entries::Short(Vec::new()));
+        let mut row = Growing::Short(Vec::new());
         while let Some(number) = list.next_element::<Number>()? {
             row.push(integer(number)?);
         }
 
-        Ok(row)
+        Ok(row.into_row())
     }
 }
 
