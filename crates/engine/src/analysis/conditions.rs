@@ -274,16 +274,18 @@ fn refuted_from(a: &Sparse, b: &Sparse) -> Option<Rational> {
 /// A vector in doubles, rounded to integers, near the null vector of A + mu B where definiteness
 /// ends: by inverse iteration at the last mu with a Cholesky factor.
 ///
-/// That mu is found by doubling and halving. `None` where no end is found.
+/// That mu is found by halving, first of the powers of two. `None` where no end is found.
 fn near_null_vector(a: &Sparse, b: &Sparse) -> Option<Vec<Rational>> {
     let a = Skyline::symmetric(a);
     let b = Skyline::symmetric(b);
     let is_definite = |mu: f64| a.combine(mu, &b).cholesky().is_some();
 
-    let powers = (-END_EXPONENT..=END_EXPONENT).rev();
-    let mut below = powers
+    // A is definite, so the powers of two at which A + mu B is so are the lowest ones.
+    let powers: Vec<f64> = (-END_EXPONENT..=END_EXPONENT)
         .map(|k| f64::from(k).exp2())
-        .find(|mu| is_definite(*mu))?;
+        .collect();
+    let definite = powers.partition_point(|mu| is_definite(*mu));
+    let mut below = powers[definite.checked_sub(1)?];
     let mut above = 2.0 * below;
 
     for _ in 0..HALVINGS_OF_END {
@@ -362,19 +364,17 @@ impl Necessary {
     /// # Errors
     /// As [`DefiniteUntil::of`].
     pub fn of(family: &MuFamily) -> Result<Necessary, ModelError> {
-        let stiffness = DefiniteUntil::of("K*", family.stiffness.a(), family.stiffness.b())?;
-        let Some(m) = &family.mass else {
-            return Ok(Necessary {
-                stiffness,
-                mass: None,
-                mass_is_constant: false,
-            });
-        };
+        let k = &family.stiffness;
+        let mass = family.mass.as_ref();
+        let (of_stiffness, of_mass) = rayon::join(
+            || DefiniteUntil::of("K*", k.a(), k.b()),
+            || mass.map(|m| DefiniteUntil::of("M*", m.a(), m.b())),
+        );
 
         Ok(Necessary {
-            stiffness,
-            mass: Some(DefiniteUntil::of("M*", m.a(), m.b())?),
-            mass_is_constant: m.b().entries().next().is_none(),
+            stiffness: of_stiffness?,
+            mass: of_mass.transpose()?,
+            mass_is_constant: mass.is_some_and(|m| m.b().entries().next().is_none()),
         })
     }
 

@@ -51,7 +51,7 @@ pub use stability::Stability;
 pub use threshold::StaticThreshold;
 pub use unbounded::UnboundedGrowth;
 
-use crate::run::{Progress, Watch};
+use crate::run::{Progress, Watch, in_threads};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
 use critical::{BranchStart, CriticalFound, KnownOfSystem};
@@ -328,7 +328,9 @@ fn families_and_condition(
     model
         .watch
         .report(&Progress::stage("conditions (19), (20)"));
-    let necessary = Necessary::of(families.of_condition())?;
+    let necessary = in_threads(model.options.threads, || {
+        Necessary::of(families.of_condition())
+    })?;
 
     Ok((families, necessary))
 }
