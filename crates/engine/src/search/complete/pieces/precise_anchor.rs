@@ -14,9 +14,9 @@
 use super::anchor::{FINE, FreeElimination};
 use super::condense::bounds_of;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix, IntegerRow};
-use mceip_exact::{Integer, Rational, Sparse, common_denominator, from_f64, to_f64};
+use mceip_exact::{Integer, Rational, Sparse, common_denominator, from_f64, to_f64, truncated};
 use mceip_model::Pencil;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 
 /// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed
@@ -310,14 +310,17 @@ fn subtract(sums: &mut [Integer], factor: &Integer, row: &IntegerRow) {
 
 /// Adds corrections, rounded to units of the matrix; is none of them more than a unit?
 fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
-    let unit = Rational::from_integer(Integer::one() << matrix.exponent);
+    // Powers of two whose product is in the range of doubles where either factor may not be.
+    let exponent = matrix.exponent as i32;
+    let units = [exponent / 2, exponent - exponent / 2].map(|half| f64::from(half).exp2());
+
     let mut is_still = true;
     for (i, row) in matrix.rows.iter_mut().enumerate() {
         let mut corrected = row.to_vec();
         for (entry, column) in corrected.iter_mut().zip(columns) {
-            let units = (from_f64(column[i]).ok()? * &unit).round().to_integer();
-            is_still &= units.abs() <= Integer::one();
-            *entry += units;
+            let correction = (column[i] * units[0] * units[1]).round();
+            is_still &= correction.abs() <= 1.0;
+            *entry += truncated(correction)?;
         }
         *row = corrected.into();
     }
@@ -332,6 +335,7 @@ mod tests {
     use crate::search::complete::pieces::condense::{DefinitePencils, condense};
     use mceip_exact::{rational, whole};
     use mceip_model::Window;
+    use num_traits::Signed;
 
     /// Is entry (i, 0) of a matrix within 2^-bits of a number?
     fn is_near(matrix: &IntegerMatrix, i: usize, expected: &Rational, bits: u32) -> bool {
