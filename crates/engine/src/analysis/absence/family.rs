@@ -22,7 +22,7 @@ use crate::search::complete::pieces::prepared::Prepared;
 use crate::search::complete::pieces::reverse::exchanged;
 use crate::search::complete::pieces::view::{View, common_row_factor, row_factor};
 use crate::tolerance::{FIRST_NEAR, NEARER};
-use mceip_check::certificate::{CriticalAnchor, CriticalCondensation, CriticalTail};
+use mceip_check::certificate::{Condensation, CriticalAnchor, CriticalCondensation, CriticalTail};
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Body, ModelError, MuFamily, Pencil, Problem, Unknown, Window};
@@ -127,7 +127,7 @@ impl HalfLineFamily {
         prepared.view.zero.clone_from(&families.zero);
 
         if prepared.is_expanded() {
-            let near_zero = NEAR_ZERO * prepared.lowest_frequency;
+            let near_zero = near_zero(&prepared);
             if places.iter().any(|place| place.lambda2 <= near_zero)
                 && let Some(graded) = prepared
                     .clone()
@@ -142,9 +142,10 @@ impl HalfLineFamily {
             others.sort_by(|p, q| q.near.total_cmp(&p.near));
             for place in others {
                 let values = [place.lambda2];
-                prepared = prepared.refined_within(place.near, &problem, without_friction, &values);
+                prepared.refine_within(place.near, &window, without_friction, &values);
             }
         }
+        let scales = RowScales::of(&pencils, radii.as_ref())?;
 
         let mut expansions = Vec::new();
         let mut left_friction = Vec::new();
@@ -157,30 +158,14 @@ impl HalfLineFamily {
                 ]);
             }
             Some(condensation) => {
-                let beside =
-                    beside(of_friction, condensation).ok_or(CompleteError::NotDefinite {
-                        what: "A_ff + t B_ff",
-                        index: without_friction.free()[0],
-                    })?;
-
-                // The matrices of a large body take most of the memory: they are moved.
-                let anchors = std::mem::take(&mut condensation.anchors);
-                let with_expansions = anchors.into_iter().zip(&prepared.view.expansions);
-                for ((anchor, first), second) in with_expansions.zip(beside) {
-                    expansions.push([first.clone(), second.expansion]);
-                    left_friction.push(CriticalAnchor {
-                        center: anchor.center,
-                        reversed: anchor.reversed,
-                        right: anchor.right,
-                        // In the pencil of mu = 0 T_sf' is T_fs.
-                        left: None,
-                        left_friction: second.left,
-                    });
+                let first = &prepared.view.expansions;
+                for (anchor, pair) in with_friction_part(of_friction, condensation, first)? {
+                    expansions.push(pair);
+                    left_friction.push(anchor);
                 }
             }
         }
 
-        let scales = RowScales::of(&pencils, radii.as_ref())?;
         let mut expansions: Vec<[Expansion; 2]> = expansions
             .into_iter()
             .map(|pair| scales.applied_to(pair))
@@ -209,6 +194,41 @@ impl HalfLineFamily {
             scales,
             pieces,
         })
+    }
+
+    /// Can an anchor about this place be added to those there are? Not where one at 0 serves it, or
+    /// where the radii of the data count, which are those of what each anchor serves.
+    pub(super) fn can_add(&self, place: &PrecisePlace) -> bool {
+        let is_served_at_zero = place.lambda2 <= near_zero(&self.prepared);
+        self.radii.is_none() && (!self.prepared.is_expanded() || !is_served_at_zero)
+    }
+
+    /// Adds an anchor about a place, and cuts its piece out of those there are.
+    ///
+    /// # Errors
+    /// As [`HalfLineFamily::new`].
+    pub(super) fn add(&mut self, place: &PrecisePlace) -> Result<(), CompleteError> {
+        if !self.prepared.is_expanded() {
+            return Ok(());
+        }
+
+        let [without_friction, of_friction] = &self.pencils;
+        let before = self.prepared.view.expansions.len();
+        let window = Window::all();
+        let values = [place.lambda2];
+        self.prepared
+            .refine_within(place.near, &window, without_friction, &values);
+
+        let added = &self.prepared.view.expansions[before..];
+        if let Some(condensation) = &mut self.prepared.condensation {
+            for (anchor, pair) in with_friction_part(of_friction, condensation, added)? {
+                self.expansions.push(self.scales.applied_to(pair));
+                self.left_friction.push(anchor);
+            }
+        }
+
+        self.pieces = pieces_of(&self.prepared);
+        Ok(())
     }
 
     /// The measure of lambda^2: theta = t / (scale + t).
@@ -345,6 +365,42 @@ impl HalfLineFamily {
             Some(radii) => radii.least_at(pencils, &given, friction).ok(),
         }
     }
+}
+
+/// Values of lambda^2 up to this are served by an anchor at 0.
+fn near_zero(prepared: &Prepared) -> f64 {
+    NEAR_ZERO * prepared.lowest_frequency
+}
+
+/// Each anchor of a condensation of P0 with V for P1, and the expansions of both parts about it.
+/// `first` are those of P0.
+///
+/// The matrices of a large body take most of the memory: they are moved.
+fn with_friction_part(
+    of_friction: &Pencil,
+    condensation: &mut Condensation,
+    first: &[Expansion],
+) -> Result<Vec<(CriticalAnchor, [Expansion; 2])>, CompleteError> {
+    let beside = beside(of_friction, condensation).ok_or(CompleteError::NotDefinite {
+        what: "A_ff + t B_ff",
+        index: of_friction.free()[0],
+    })?;
+
+    let anchors = std::mem::take(&mut condensation.anchors).into_iter();
+    let mut pairs = Vec::with_capacity(first.len());
+    for ((anchor, first), second) in anchors.zip(first).zip(beside) {
+        let anchor = CriticalAnchor {
+            center: anchor.center,
+            reversed: anchor.reversed,
+            right: anchor.right,
+            // In the pencil of mu = 0 T_sf' is T_fs.
+            left: None,
+            left_friction: second.left,
+        };
+        pairs.push((anchor, [first.clone(), second.expansion]));
+    }
+
+    Ok(pairs)
 }
 
 /// A value of lambda^2 on whose scale T changes: the lowest frequency of the free variables, or

@@ -89,6 +89,28 @@ struct KeptFamily {
     family: HalfLineFamily,
 }
 
+impl KeptFamily {
+    /// The same about these places, if they are the old ones and perhaps new ones for which anchors
+    /// can be added; `None` where all is to be made anew.
+    fn with_places(mut self, places: &[PrecisePlace]) -> Result<Option<KeptFamily>, CompleteError> {
+        let Some(new) = places.strip_prefix(self.places.as_slice()) else {
+            return Ok(None);
+        };
+
+        for place in new {
+            let is_nearest = self.places.iter().all(|other| place.near <= other.near);
+            if !is_nearest || !self.family.can_add(place) {
+                return Ok(None);
+            }
+
+            self.family.add(place)?;
+            self.places.push(*place);
+        }
+
+        Ok(Some(self))
+    }
+}
+
 impl LastFamily {
     /// The condensation about these places, made anew where the last one does not serve.
     fn of(
@@ -97,10 +119,9 @@ impl LastFamily {
         friction: &Rational,
         places: &[PrecisePlace],
     ) -> Result<&mut HalfLineFamily, CompleteError> {
-        let serves = |last: &KeptFamily| last.places == places && *friction <= last.friction;
-        let last = self.0.take().filter(serves);
-        let last = match last {
-            Some(last) => last,
+        let last = self.0.take().filter(|last| *friction <= last.friction);
+        let last = match last.and_then(|last| last.with_places(places).transpose()) {
+            Some(last) => last?,
             None => KeptFamily {
                 friction: friction.clone(),
                 places: places.to_vec(),
@@ -171,7 +192,9 @@ impl<'a> Quadrant<'a> {
         last: &'b mut LastFamily,
     ) -> Result<&'b mut HalfLineFamily, CompleteError> {
         self.watch.report(&Progress::stage("condensing"));
-        last.of(self.families, &bound.at_most, bound.places)
+        in_threads(self.threads, || {
+            last.of(self.families, &bound.at_most, bound.places)
+        })
     }
 
     /// Covers [0, infinity) x [from, below].
@@ -363,7 +386,7 @@ mod tests {
         assert!(cancel.is_requested());
     }
 
-    /// A larger bound, more places and the same bound: what serves is kept, the rest made anew.
+    /// A larger bound, nearer and farther places: what serves is kept, the rest made anew.
     #[test]
     fn one_condensation_serves_the_bounds_it_was_made_for() {
         let data = TwoParticles {
@@ -389,8 +412,41 @@ mod tests {
         assert_eq!(made_for(2, &[]), whole(2));
         assert_eq!(made_for(1, &[]), whole(2));
         assert_eq!(made_for(3, &[]), whole(3));
-        assert_eq!(made_for(1, &[place]), whole(1));
+        assert_eq!(made_for(1, &[place]), whole(3));
+        let farther = PrecisePlace { near: 0.2, ..place };
+        assert_eq!(made_for(1, &[place, farther]), whole(1));
+        assert_eq!(made_for(1, &[farther]), whole(1));
         assert!(last.into_family().is_some());
+    }
+
+    /// With free variables: a place that is added later gives the anchors and pieces of a
+    /// condensation about both.
+    #[test]
+    fn places_are_added_to_the_last_condensation() {
+        let block = Block::new(&BlockModel::of_the_paper().with_cells(2, 1)).unwrap();
+        let slip = ContactState::Slip { sign: 1 };
+        let states = [slip, slip, ContactState::Free];
+        let system = block.system(&states, Some(whole(1))).unwrap();
+        let families = Families::of(&system).unwrap();
+        let unit = unit_of_lambda2(&families.own).unwrap();
+        let places = [(2.0, 0.1), (0.5, 0.03)].map(|(share, near)| PrecisePlace {
+            lambda2: share * unit,
+            near,
+        });
+
+        let mut last = LastFamily::default();
+        for count in 0..=2 {
+            let added = last.of(&families, &whole(2), &places[..count]).unwrap();
+            let anew = HalfLineFamily::new(&families, &whole(2), &places[..count]).unwrap();
+
+            assert_eq!(added.left_friction, anew.left_friction);
+            let intervals = |family: &HalfLineFamily| {
+                let piece = |p: &PieceOfHalfLine| (p.lo.clone(), p.hi.clone(), p.anchor);
+                family.pieces.iter().map(piece).collect::<Vec<_>>()
+            };
+            assert_eq!(intervals(added), intervals(&anew));
+            assert!(anew.left_friction.len() > count);
+        }
     }
 
     /// T = [[1 + t, -4 mu], [0, 1 + t]] has no solution, and no definite symmetric part from mu =

@@ -55,7 +55,7 @@ pub use merge::merge;
 pub use options::{CompleteOptions, Shard};
 
 use crate::certify::certificate;
-use crate::run::Watch;
+use crate::run::{Watch, in_threads};
 use accepted_x::{accepted_x, claim_about, support_leaves};
 use audited::{Audited, audited};
 use given::Given;
@@ -157,7 +157,8 @@ pub fn complete(
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
-    let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
+    let prepare = || Prepared::new(problem, &pencil, options.pieces);
+    let mut prepared = in_threads(options.threads, prepare)?;
     if options.shard.is_none()
         && let Some(completed) = by_definiteness(problem, &pencil, &prepared)?
     {

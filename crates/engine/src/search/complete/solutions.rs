@@ -19,7 +19,7 @@ use super::region::{self, Item, SearchRegion};
 use super::tree::{Aim, Here, MAX_CUTS, SLACK_OF_HALF, TreeSearch};
 use crate::tolerance::{DEGENERATE_PART, NARROW};
 use mceip_check::certificate::{Node, VariableState};
-use mceip_exact::Rational;
+use mceip_exact::{Rational, to_f64};
 use std::rc::Rc;
 
 /// Cuts in a row of an infinite interval before a variable is decided instead.
@@ -155,6 +155,15 @@ impl TreeSearch<'_, Solutions<'_>> {
         self.width(ends) < NARROW
     }
 
+    /// Is the whole window too narrow to be cut?
+    fn is_window_narrow(&self) -> bool {
+        let window = self.aim.given.window();
+        let theta = |value: &Rational| self.view.theta(to_f64(value));
+        window
+            .max()
+            .is_some_and(|max| theta(max) - theta(window.min()) < NARROW)
+    }
+
     /// The width of an interval in theta.
     pub(super) fn width(&self, ends: &ChordEnds) -> f64 {
         self.view.theta(ends.hi) - self.view.theta(ends.lo)
@@ -215,6 +224,11 @@ impl TreeSearch<'_, Solutions<'_>> {
     /// A null vector that is not provably the only one (a double root, a wide kernel, a singular
     /// pencil): a neighbourhood of it stays open, or the whole region the second time.
     fn degenerate(&mut self, region: &SearchRegion, ends: &ChordEnds, value: f64, share: f64) {
+        // Doubles do not tell the parts of a narrow window apart, long numbers may decide it whole.
+        if self.is_window_narrow() {
+            return self.leaf(Node::Open, share);
+        }
+
         let neighbourhood = part_around(region, ends, value, DEGENERATE_PART);
         let Some([lo, hi]) = neighbourhood.filter(|_| !region.is_suspect) else {
             return self.leaf(Node::Open, share);

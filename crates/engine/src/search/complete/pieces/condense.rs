@@ -28,6 +28,7 @@ use mceip_exact::{Integer, Rational, Sparse, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
 use num_traits::ToPrimitive;
+use rayon::prelude::*;
 
 /// Share of an estimated lower bound of a spectrum that is claimed; the rest is slack for rounding.
 const CLAIMED: f64 = 0.8;
@@ -149,8 +150,12 @@ pub(crate) fn condense(
     let mut anchors = ExpandedAnchors::default();
     let mut ends = Vec::new();
     if wide.anchors.is_empty() || wide.from > low {
-        for center in centers(lowest_frequency, low, wide.from) {
-            let expanded = elimination.expand(&center.at, precision);
+        let centers = centers(lowest_frequency, low, wide.from);
+        let expanded = centers
+            .par_iter()
+            .map(|center| elimination.expand(&center.at, precision));
+        let expanded: Vec<Option<ExpandedAnchor>> = expanded.collect();
+        for (center, expanded) in centers.iter().zip(expanded) {
             anchors.push(expanded.ok_or(CompleteError::NotDefinite {
                 what: "A_ff + t B_ff",
                 index: first_free,
@@ -413,8 +418,7 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
     let reversed = FreeElimination::new(&exchanged, bounds.exchanged());
     let width = pencil.slip().len();
 
-    let mut all = Vec::with_capacity(condensation.anchors.len());
-    for anchor in &condensation.anchors {
+    let beside = |anchor: &Anchor| {
         let elimination = if anchor.reversed {
             &reversed
         } else {
@@ -424,10 +428,9 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
         let right = columns_of_all(&anchor.right, width);
         let mut beside = elimination.expand_beside(anchor, &right)?;
         beside.expansion.reversed = anchor.reversed;
-        all.push(beside);
-    }
-
-    Some(all)
+        Some(beside)
+    };
+    condensation.anchors.par_iter().map(beside).collect()
 }
 
 /// The expansion that an anchor of a certificate gives for the pencil that is eliminated.

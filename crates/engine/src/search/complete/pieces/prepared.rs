@@ -16,7 +16,7 @@ use super::view::View;
 use crate::reduction::zero_of;
 use crate::search::complete::dyadic::short_near;
 use crate::search::complete::error::CompleteError;
-use crate::tolerance::SHARED_ANCHOR;
+use crate::tolerance::{NARROW, SHARED_ANCHOR};
 use mceip_check::MAX_COVERED;
 use mceip_check::certificate::{CompleteSet, Condensation, Node, Piece};
 use mceip_exact::{Rational, to_f64};
@@ -236,18 +236,24 @@ impl Prepared {
     /// Gives each of these values (ascending) an anchor and a piece around it, cut out of the
     /// pieces there are. Values near one another share one, and those next to the lower end of the
     /// window that of [`Prepared::with_lower_anchor`].
-    pub(crate) fn refined(self, problem: &Problem, pencil: &Pencil, values: &[f64]) -> Prepared {
-        self.refined_within(NEAR, problem, pencil, values)
-    }
-
-    /// The same with anchors that are used within `near`, relative to value + lowest frequency.
-    pub(crate) fn refined_within(
+    pub(crate) fn refined(
         mut self,
-        near: f64,
         problem: &Problem,
         pencil: &Pencil,
         values: &[f64],
     ) -> Prepared {
+        self.refine_within(NEAR, problem.window(), pencil, values);
+        self
+    }
+
+    /// The same with anchors that are used within `near`, relative to value + lowest frequency.
+    pub(crate) fn refine_within(
+        &mut self,
+        near: f64,
+        window: &Window,
+        pencil: &Pencil,
+        values: &[f64],
+    ) {
         let mut apart: Vec<f64> = Vec::new();
         for &value in values.iter().filter(|v| **v > self.shared_up_to) {
             let least_distance = 3.0 * self.reach(value, near);
@@ -257,14 +263,15 @@ impl Prepared {
         }
 
         let Some(condensation) = self.condensation.as_mut() else {
-            return self;
+            return;
         };
 
-        let before = condensation.anchors.len();
+        // The matrices of the anchors may have been moved elsewhere, the expansions are all here.
+        let before = self.view.expansions.len();
         let fine = self.precisions.fine;
         refine(pencil, condensation, &mut self.view, &apart, fine);
-        if condensation.anchors.len() != before + apart.len() {
-            return self; // an expansion failed: the coarse anchors stay
+        if self.view.expansions.len() != before + apart.len() {
+            return; // an expansion failed: the coarse anchors stay
         }
 
         for (k, value) in apart.iter().enumerate() {
@@ -273,11 +280,9 @@ impl Prepared {
             let begin = short_near(value - reach, slack);
             let end = short_near(value + reach, slack);
             if let (Some(begin), Some(end)) = (begin, end) {
-                self.cut_out(problem.window().min(), &[begin, end], before + k);
+                self.cut_out(window.min(), &[begin, end], before + k);
             }
         }
-
-        self
     }
 
     /// Gives the lower end of the window a fine anchor and a piece above it; `None` where the
@@ -496,7 +501,8 @@ fn with_anchor(
     })
 }
 
-/// Upper ends of `count` pieces of [min, max]: equal steps of theta, at short numbers.
+/// Upper ends of `count` pieces of [min, max]: equal steps of theta, at short numbers. A narrow
+/// interval stays whole: doubles do not tell its parts apart, and long numbers may decide it.
 fn cuts(
     view: &View,
     min: &Rational,
@@ -505,6 +511,10 @@ fn cuts(
 ) -> Vec<Option<Rational>> {
     let first = view.theta(to_f64(min));
     let last = view.theta(max.map_or(f64::INFINITY, to_f64));
+    if last - first < NARROW {
+        return vec![max.cloned()];
+    }
+
     let step = (last - first) / count.max(1) as f64;
 
     let mut ends: Vec<Option<Rational>> = Vec::new();
