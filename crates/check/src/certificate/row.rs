@@ -33,27 +33,27 @@ enum Entries {
 }
 
 /// A row to which integers are appended.
-enum Growing {
+enum GrowingRow {
     Short(Vec<i64>),
     Long(Vec<Integer>),
 }
 
-impl Growing {
+impl GrowingRow {
     fn push(&mut self, entry: Integer) {
         match self {
-            Growing::Short(row) if entry.bits() <= SHORT_BITS => row.extend(entry.to_i64()),
-            Growing::Short(row) => {
+            GrowingRow::Short(row) if entry.bits() <= SHORT_BITS => row.extend(entry.to_i64()),
+            GrowingRow::Short(row) => {
                 let before = row.drain(..).map(Integer::from);
-                *self = Growing::Long(before.chain([entry]).collect());
+                *self = GrowingRow::Long(before.chain([entry]).collect());
             }
-            Growing::Long(row) => row.push(entry),
+            GrowingRow::Long(row) => row.push(entry),
         }
     }
 
     fn into_row(self) -> IntegerRow {
         IntegerRow(match self {
-            Growing::Short(row) => Entries::Short(row.into()),
-            Growing::Long(row) => Entries::Long(row.into()),
+            GrowingRow::Short(row) => Entries::Short(row.into()),
+            GrowingRow::Long(row) => Entries::Long(row.into()),
         })
     }
 }
@@ -130,7 +130,7 @@ impl FromIterator<Integer> for IntegerRow {
     fn from_iter<I: IntoIterator<Item = Integer>>(integers: I) -> IntegerRow {
         let integers = integers.into_iter();
         let capacity = integers.size_hint().0;
-        let mut row = Growing::Short(Vec::with_capacity(capacity));
+        let mut row = GrowingRow::Short(Vec::with_capacity(capacity));
         for entry in integers {
             row.push(entry);
         }
@@ -167,7 +167,7 @@ impl<'de> Visitor<'de> for RowVisitor {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<IntegerRow, A::Error> {
-        let mut row = Growing::Short(Vec::new());
+        let mut row = GrowingRow::Short(Vec::new());
         while let Some(number) = list.next_element::<Number>()? {
             row.push(integer(number)?);
         }

@@ -19,9 +19,9 @@
 //! (`found`).
 //!
 //! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
-//! half line. `ball`, `product`, `residual`, `enclosed_definite` and `psd` are the arithmetic behind it, and
-//! `spread` is what the radii of the data add. `walk` goes through the trees, and `budget` bounds
-//! the work.
+//! half line. `ball`, `product`, `residual`, `enclosed_definite` and `psd` are the arithmetic
+//! behind it, and `spread` is what the radii of the data add. `walk` goes through the trees, and
+//! `budget` bounds the work.
 //!
 //! `critical` uses the same leaves for boxes of (value, friction): absence below a friction.
 //! `presence` uses the corners of such boxes: a solution for every friction of an interval. What an

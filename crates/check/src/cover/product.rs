@@ -84,13 +84,13 @@ pub(super) fn times(left: &NonzeroRows<'_>, right: &[IntegerRow], columns: usize
 /// One row of such a product.
 fn row_times(row: &[(usize, &Integer)], right: &[IntegerRow], columns: usize) -> Vec<Integer> {
     let terms = row.iter().map(|(g, entry)| ((*entry).clone(), &right[*g]));
-    let terms: Vec<Term<'_>> = terms.collect();
+    let terms: Vec<RowTerm<'_>> = terms.collect();
     let sums = RowSum::of(&terms, &[], columns);
     sums.entries().map(Integer::from).collect()
 }
 
 /// A long integer and the row that it multiplies.
-pub(super) type Term<'a> = (Integer, &'a IntegerRow);
+pub(super) type RowTerm<'a> = (Integer, &'a IntegerRow);
 
 /// A sum of rows, each times a long integer.
 pub(super) enum RowSum {
@@ -107,14 +107,18 @@ pub(super) enum SumEntry {
 
 impl RowSum {
     /// The sum of the terms, and of the `addends` in their columns, one a column at most.
-    pub(super) fn of(terms: &[Term<'_>], addends: &[(usize, Integer)], columns: usize) -> RowSum {
+    pub(super) fn of(
+        terms: &[RowTerm<'_>],
+        addends: &[(usize, Integer)],
+        columns: usize,
+    ) -> RowSum {
         RowSum::by_digits(terms, addends, columns)
             .unwrap_or_else(|| RowSum::in_long_integers(terms, addends, columns))
     }
 
     /// `None` where a row is long or the integers have too many digits.
     fn by_digits(
-        terms: &[Term<'_>],
+        terms: &[RowTerm<'_>],
         addends: &[(usize, Integer)],
         columns: usize,
     ) -> Option<RowSum> {
@@ -157,7 +161,7 @@ impl RowSum {
     }
 
     fn in_long_integers(
-        terms: &[Term<'_>],
+        terms: &[RowTerm<'_>],
         addends: &[(usize, Integer)],
         columns: usize,
     ) -> RowSum {

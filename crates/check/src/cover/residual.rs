@@ -1,4 +1,5 @@
-//! How far polynomials W solve F(d) W(d) = C(d), which is linear in d: the residual C - F W, exactly.
+//! How far polynomials W solve F(d) W(d) = C(d), with F and C linear in d: the residual C - F W,
+//! exactly.
 //!
 //! With F = F_0 + d F_1 the coefficient of d^m is
 //!
@@ -18,7 +19,7 @@
 use super::condensed::norms;
 use super::ends::LongMatrix;
 use super::expanded::Norms;
-use super::product::{Linear, LinearPart, RowSum, SumEntry, Term, row_of};
+use super::product::{Linear, LinearPart, RowSum, RowTerm, SumEntry, row_of};
 use crate::certificate::{IntegerMatrix, IntegerRow};
 use mceip_exact::Integer;
 use num_integer::Integer as _;
@@ -173,7 +174,7 @@ impl<'a> ResidualEquations<'a> {
     /// Row i of the coefficient of d^power, in its unit.
     fn row(&self, i: usize, power: usize) -> RowSum {
         let unit = self.unit(power);
-        let mut terms: Vec<Term<'_>> = Vec::new();
+        let mut terms: Vec<RowTerm<'_>> = Vec::new();
         let parts = [
             (LinearPart::Constant, Some(power)),
             (LinearPart::Linear, power.checked_sub(1)),
