@@ -7,6 +7,7 @@ use super::solution::Solution;
 use crate::say;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, Proved, SolutionFamily};
+use mceip_engine::analysis::ProofCertificate;
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_engine::run::{Keeper, Kept, Watch};
@@ -337,11 +338,19 @@ impl<'a> Complete<'a> {
 
         // What is kept meanwhile is about the problem, and holds what is proved of both signs.
         let keep = |kept: &Kept<'_>| {
+            let ProofCertificate::Solutions(below) = kept.certificate else {
+                return;
+            };
+
             let above = completed.proved.certificate().clone();
-            let below = Certificate::from_json(kept.certificate);
-            let both = below.map(|below| Proved::new(problem, above.with_negative(below)));
-            if let (Ok(Ok(both)), Some(keeper)) = (both, watch.keeper()) {
-                keeper.keep(kept.name, problem, &both);
+            let below = below.certificate().clone();
+            let both = Proved::new(problem, above.with_negative(below));
+            if let (Ok(both), Some(keeper)) = (both, watch.keeper()) {
+                keeper.hand_over(&Kept {
+                    name: kept.name,
+                    problem,
+                    certificate: &ProofCertificate::Solutions(both),
+                });
             }
         };
         let keeper = watch
