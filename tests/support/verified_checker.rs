@@ -120,8 +120,11 @@ struct VerdictLine<'a> {
 
 impl VerdictLine<'_> {
     fn read(line: &str) -> Option<VerdictLine<'_>> {
-        let (sentence, others) = line.rsplit_once(" (")?;
-        let (name, rest) = others.split_once(')')?;
+        // A window may begin with a parenthesis, too.
+        let names = [Unknown::Lambda2, Unknown::Mu, Unknown::Eigenvalue];
+        let places = names.map(|name| line.rfind(&format!(" ({}, ", name.word())));
+        let (sentence, others) = line.split_at(places.into_iter().flatten().max()?);
+        let (name, rest) = others.strip_prefix(" (")?.split_once(')')?;
         Some(VerdictLine {
             sentence,
             name,

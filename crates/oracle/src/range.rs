@@ -21,9 +21,9 @@ use super::cone::cone_at;
 use super::degenerate::{End, SupportRange, Undescribed, ValueInterval};
 use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::IntegerPencil;
-use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, roots_in};
+use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots, roots_in};
 use mceip_model::RealWindow;
-use num_traits::One as _;
+use num_traits::{One as _, Zero as _};
 use std::cmp::Ordering;
 
 /// Most minors formed for one support: beyond it the support is named as undescribed.
@@ -173,7 +173,11 @@ impl SingularSupport<'_> {
 
     /// Goes up through the critical values and the cells between them.
     fn extent(&self, critical: &Poly) -> ValueSet {
-        let mut critical = roots_in(critical, None, None);
+        // 0 is a root; the others are isolated on their side of it.
+        let zero = Rational::zero();
+        let mut below = roots_in(critical, None, Some(&zero));
+        below.pop();
+        let mut critical = [below, nonnegative_roots(critical)].concat();
         let mut extent = ValueSet {
             intervals: Vec::new(),
             isolated: Vec::new(),
