@@ -16,8 +16,8 @@ use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
-/// Bits of the entries of a short row, at most. The checker sums 2^33 products of such an entry
-/// and of a digit of 32 bits in 128 bits.
+/// Bits of the entries of a short row, at most: the checker sums products of such entries in 128
+/// bits.
 const SHORT_BITS: u64 = 62;
 
 /// Integers in a row.

@@ -20,28 +20,23 @@ use super::condensed::norms;
 use super::ends::LongMatrix;
 use super::expanded::Norms;
 use super::product::{Linear, LinearPart, RowSum, RowTerm, SumEntry, row_of};
-use crate::certificate::{IntegerMatrix, IntegerRow};
+use crate::certificate::IntegerMatrix;
 use mceip_exact::Integer;
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
-use std::borrow::Cow;
 
 /// Bits of the entries of a residual whose squares are summed in machine integers, at most.
-const SHORT_BITS: u32 = 112;
+const SQUARED_BITS: u32 = 112;
 
 /// F(d) W(d) = C(d) in d = t - center, which W solves up to a residual.
 pub(super) struct ResidualEquations<'a> {
     f: &'a Linear,
     c: Linear,
-    w: Vec<WitnessCoefficient<'a>>,
+    w: &'a [IntegerMatrix],
+    /// What each column of W is multiplied by.
+    factors_of_w: Vec<Integer>,
     /// What each column of both sides is to be multiplied by.
     pub(super) column_factors: Vec<Integer>,
-}
-
-/// A coefficient of W in units of 2^-`exponent`.
-struct WitnessCoefficient<'a> {
-    rows: Cow<'a, [IntegerRow]>,
-    exponent: u32,
 }
 
 /// What is kept of a residual, in units of 2^-e, e the largest exponent of W.
@@ -80,7 +75,12 @@ impl<'a> ResidualEquations<'a> {
     ) -> ResidualEquations<'a> {
         let mut common = column_factors.to_vec();
         for (j, constant, linear) in c.iter().flatten() {
-            common[*j] = common[*j].gcd(constant).gcd(linear);
+            for entry in [constant, linear] {
+                // The entries may be much longer than the factor.
+                if !common[*j].is_one() {
+                    common[*j] = (entry % &common[*j]).gcd(&common[*j]);
+                }
+            }
         }
 
         for (j, constant, linear) in c.iter_mut().flatten() {
@@ -88,34 +88,22 @@ impl<'a> ResidualEquations<'a> {
             *linear /= &common[*j];
         }
 
-        let rest: Vec<Integer> = column_factors
-            .iter()
-            .zip(&common)
-            .map(|(f, g)| f / g)
-            .collect();
-        let coefficient = |matrix: &'a IntegerMatrix| WitnessCoefficient {
-            rows: columns_times(&matrix.rows, &rest),
-            exponent: matrix.exponent,
-        };
-
+        let factors = column_factors.iter().zip(&common);
         ResidualEquations {
             f,
             c,
-            w: w.iter().map(coefficient).collect(),
+            w,
+            factors_of_w: factors.map(|(factor, common)| factor / common).collect(),
             column_factors: common,
         }
     }
 
     /// Does the other equation say the same, but for what its columns are multiplied by?
     pub(super) fn is_that_of(&self, other: &ResidualEquations<'_>) -> bool {
-        let are_same = |p: &WitnessCoefficient<'_>, q: &WitnessCoefficient<'_>| {
-            p.exponent == q.exponent && p.rows == q.rows
-        };
-        let mut coefficients = self.w.iter().zip(&other.w);
-        self.w.len() == other.w.len()
-            && std::ptr::eq(self.f, other.f)
+        std::ptr::eq(self.f, other.f)
+            && self.factors_of_w == other.factors_of_w
+            && self.w == other.w
             && self.c == other.c
-            && coefficients.all(|(p, q)| are_same(p, q))
     }
 
     /// C(d) - F(d) W(d), without what its columns are multiplied by.
@@ -197,23 +185,24 @@ impl<'a> ResidualEquations<'a> {
             .into_iter()
             .map(|(column, entry)| (column, entry << unit));
         let addends: Vec<(usize, Integer)> = addends.collect();
-        RowSum::of(&terms, &addends, self.column_factors.len())
-    }
-}
+        let columns = self.column_factors.len();
+        if self.factors_of_w.iter().all(One::is_one) {
+            return RowSum::of(&terms, &addends, columns);
+        }
 
-/// A matrix with each column times its factor.
-fn columns_times<'a>(rows: &'a [IntegerRow], factors: &[Integer]) -> Cow<'a, [IntegerRow]> {
-    if factors.iter().all(One::is_one) {
-        return Cow::Borrowed(rows);
+        let product = RowSum::of(&terms, &[], columns);
+        let product = product.entries().map(Integer::from).zip(&self.factors_of_w);
+        let mut row: Vec<Integer> = product.map(|(entry, factor)| entry * factor).collect();
+        for (column, addend) in addends {
+            row[column] += addend;
+        }
+        RowSum::Long(row)
     }
-
-    let times = |row: &IntegerRow| row.iter().zip(factors).map(|(w, f)| &*w * f).collect();
-    Cow::Owned(rows.iter().map(times).collect())
 }
 
 /// The sum of the squares of each column of a matrix that comes row by row.
 ///
-/// With |v| = x 2^64 + y below 2^[`SHORT_BITS`] the square is x^2 2^128 + x y 2^65 + y^2, so that
+/// With |v| = x 2^64 + y below 2^[`SQUARED_BITS`] the square is x^2 2^128 + x y 2^65 + y^2, so that
 /// the sums of 2^31 rows fit into two numbers of 128 bits.
 #[derive(Clone)]
 struct SquareSums {
@@ -236,7 +225,7 @@ impl SquareSums {
     /// Adds the square of an entry of a column.
     fn add(&mut self, column: usize, entry: SumEntry) {
         match entry {
-            SumEntry::Short(v) if v.unsigned_abs() >> SHORT_BITS == 0 => {
+            SumEntry::Short(v) if v.unsigned_abs() >> SQUARED_BITS == 0 => {
                 let x = v.unsigned_abs() >> 64;
                 let y = v.unsigned_abs() & u128::from(u64::MAX);
                 let mixed = x * y;
@@ -280,8 +269,8 @@ mod tests {
             ones(63),
             ones(64),
             ones(64) + 1,
-            ones(SHORT_BITS),
-            ones(SHORT_BITS) + 1,
+            ones(SQUARED_BITS),
+            ones(SQUARED_BITS) + 1,
             i128::MAX,
         ];
 
