@@ -331,7 +331,16 @@ fn say_accepted(
     let windows = certificate.windows();
     let cover = accepted.cover.as_ref();
     let mut out = String::new();
-    for claim in &accepted.claims {
+    let negative = certificate.negative.as_ref();
+    for (k, claim) in accepted.claims.iter().enumerate() {
+        // A claim has a place in the complete set of its part.
+        let is_negative = k >= certificate.claims.len();
+        let has_set = if is_negative {
+            negative.is_some_and(|part| part.complete_set.is_some())
+        } else {
+            certificate.complete_set.is_some()
+        };
+        let cover = cover.filter(|_| has_set);
         let place = cover.and_then(|cover| cover.place_of(claim));
         out += &claim_text(problem, claim, place);
     }

@@ -15,7 +15,7 @@ use mceip_engine::search::complete::continua::joined;
 use mceip_engine::search::complete::{
     CompleteError, CompleteOptions, Completed, Shard, complete, merge, resume,
 };
-use mceip_exact::{Interval, Rational};
+use mceip_exact::Rational;
 use mceip_model::reduction::reduce;
 use mceip_model::{Reduced, Window};
 use num_traits::Zero as _;
@@ -82,8 +82,7 @@ impl SolutionSet {
         let mut proved = completed.proved.clone();
         let mut cover = completed.cover.clone();
         if let Some(negative) = &negative {
-            let reflected = negative.completed.proved.clone().into_certificate();
-            proved = Proved::new(problem, proved.into_certificate().with_negative(reflected))?;
+            proved = proved.with_negative(problem, negative.completed.proved.clone())?;
             cover = proved.accepted().cover.clone().unwrap_or(cover);
             cover.families = joined(&cover.families);
         }
@@ -169,18 +168,21 @@ impl SolutionSet {
 
     fn listed(&self) -> &(Vec<Solution>, Vec<Listed>) {
         self.listed.get_or_init(|| {
+            let own = self.non_negative.listed();
+            let mut entries: Vec<(AcceptedClaim, Listed)> = own
+                .map(|(proved, listed)| (proved.clone(), listed))
+                .collect();
+            if let Some(negative) = &self.negative {
+                entries.extend(negative.listed().map(reflected_entry));
+                // What has the value 0 is in both halves: the joined cover says what it is.
+                entries.retain(|(proved, _)| self.cover.solutions.contains(proved));
+                entries.sort_by(|(p, _), (q, _)| by_value(p).cmp(&by_value(q)));
+                entries.dedup_by(|next, kept| next.0 == kept.0);
+            }
+
             let mut solutions = Vec::new();
             let mut all_listed = Vec::new();
-            let negative = self.negative.iter().flat_map(SetOfSign::listed);
-            let mut negative: Vec<_> = negative.map(reflected_entry).collect();
-            negative.sort_by(|(p, _), (q, _)| by_value(p).cmp(&by_value(q)));
-            let non_negative = self.non_negative.listed();
-            let non_negative = non_negative.map(|(proved, listed)| (proved.clone(), listed));
-            // What has the value 0 is in both halves.
-            let zero = Interval::point(Rational::zero());
-            negative.retain(|(proved, _)| proved.value != zero);
-
-            for (proved, listed) in negative.into_iter().chain(non_negative) {
+            for (proved, listed) in entries {
                 solutions.push(Solution::new(self.problem().unknown(), &proved, &listed));
                 all_listed.push(listed);
             }
@@ -342,9 +344,10 @@ impl<'a> Complete<'a> {
                 return;
             };
 
-            let above = completed.proved.certificate().clone();
-            let below = below.certificate().clone();
-            let both = Proved::new(problem, above.with_negative(below));
+            let both = completed
+                .proved
+                .clone()
+                .with_negative(problem, below.clone());
             if let (Ok(both), Some(keeper)) = (both, watch.keeper()) {
                 keeper.hand_over(&Kept {
                     name: kept.name,

@@ -107,9 +107,9 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
 
 /// Checks a certificate as [`check`] does, but leaves open each leaf of its cover that fails.
 ///
-/// Beside the verdict on the rest it returns those leaves. No leaf of values below 0 is left open.
-/// A search that wants to replace all
+/// Beside the verdict on the rest it returns those leaves. A search that wants to replace all
 /// leaves that fail calls this once, where it would have to call [`check`] once for each of them.
+/// No leaf of values below 0 is left open.
 ///
 /// # Errors
 /// [`Rejected`] with an obligation that fails although these leaves are open.
@@ -263,26 +263,36 @@ fn verdict(
     check_frame(problem, certificate)?;
 
     let checker = ClaimChecker::new(problem);
-    let (mut claims, mut cover) = checker.part(&certificate.non_negative(), audit)?;
-    let has_unique_rates = has_unique_rates(problem, certificate, cover.as_ref());
-
-    if let Some(negative) = certificate.negative() {
-        let of_negative = checker.reflected().part(&negative, None);
-        let (others, below) = of_negative.map_err(|rejected| Rejected {
-            is_negative: true,
-            ..rejected
-        })?;
-
-        claims.extend(others.into_iter().map(AcceptedClaim::reflected));
-        let below = below.map(AcceptedCover::reflected);
-        cover = cover::joined(below, cover);
-    }
-
-    Ok(Accepted {
+    let (claims, cover) = checker.part(&certificate.non_negative(), audit)?;
+    let accepted = Accepted {
+        has_unique_rates: has_unique_rates(problem, certificate, cover.as_ref()),
         claims,
         cover,
-        has_unique_rates,
-    })
+    };
+
+    let Some(negative) = certificate.negative() else {
+        return Ok(accepted);
+    };
+    let of_negative = checker.reflected().part(&negative, None);
+    let (claims, cover) = of_negative.map_err(|rejected| Rejected {
+        is_negative: true,
+        ..rejected
+    })?;
+    Ok(accepted.with_negative(claims, cover))
+}
+
+impl Accepted {
+    /// Together with claims and a cover of the reflected pencil.
+    pub(crate) fn with_negative(
+        mut self,
+        claims: Vec<AcceptedClaim>,
+        cover: Option<AcceptedCover>,
+    ) -> Accepted {
+        let claims = claims.into_iter().map(AcceptedClaim::reflected);
+        self.claims.extend(claims);
+        self.cover = cover::joined(cover.map(AcceptedCover::reflected), self.cover);
+        self
+    }
 }
 
 /// Does an accepted cover say that T(mu) of the contact states of a body is a P-matrix?
@@ -319,6 +329,14 @@ fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reaso
         return Err(Reason::Unknown {
             expected: problem.unknown().word(),
             got: certificate.unknown.word(),
+        });
+    }
+
+    // Its claims are not those of a body: the rows of the reflected pencil are what is checked.
+    if certificate.negative.is_some() && problem.unknown() != Unknown::Eigenvalue {
+        return Err(Reason::Unknown {
+            expected: Unknown::Eigenvalue.word(),
+            got: problem.unknown().word(),
         });
     }
 
@@ -454,6 +472,36 @@ mod tests {
         assert!(!is_said_unique("lambda2", quarter, definite));
         let open = r#"{"branch": 0}, "positive_definite", "open""#;
         assert!(!is_said_unique("mu", quarter, open));
+    }
+
+    /// A file says `negative` of eigenvalues only, and so does a certificate that is put together.
+    #[test]
+    fn values_below_zero_are_those_of_an_eigenvalue() {
+        for (unknown, is_accepted) in [("eigenvalue", true), ("lambda2", false), ("mu", false)] {
+            let problem = format!(
+                r#"{{"format": "mceip-problem/1", "unknown": "{unknown}",
+                    "pencil": {{"a": [[1]], "b": [[1]]}}}}"#
+            );
+            let problem = mceip_model::file::read_problem(&problem, std::path::Path::new("."));
+            let problem = problem.unwrap();
+            let set = r#"{"pieces": [{"max": null, "tree": ["positive_definite"]}]}"#;
+            let half = Certificate {
+                problem_sha256: problem.sha256(),
+                unknown: problem.unknown(),
+                window: Window::all(),
+                claims: vec![],
+                complete_set: serde_json::from_str(set).unwrap(),
+                negative: None,
+            };
+            assert!(check(&problem, &half).is_ok());
+
+            let nothing_below = Certificate {
+                complete_set: None,
+                ..half.clone()
+            };
+            let verdict = check(&problem, &half.with_negative(nothing_below));
+            assert_eq!(verdict.is_ok(), is_accepted, "{unknown}: {verdict:?}");
+        }
     }
 
     /// No file reaches this rejection as long as the checker accepts true claims and true covers

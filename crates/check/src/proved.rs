@@ -15,7 +15,7 @@ use crate::{
 };
 use crate::{allowed_work, audit, audit_critical, work_of};
 use crate::{check, check_critical, check_equilibrium, check_presence, check_stability};
-use mceip_model::{LoadedBody, ModelError, Problem};
+use mceip_model::{LoadedBody, ModelError, Problem, Unknown};
 use std::sync::Arc;
 
 /// The kinds are those of this crate: nobody else says what is accepted.
@@ -195,6 +195,44 @@ impl Proved<Certificate> {
             accepted,
         };
         Ok((proved, refused))
+    }
+
+    /// This certificate of an eigenvalue problem, with what one of its reflection says as its
+    /// values below 0.
+    ///
+    /// Both have been accepted, each for the problem whose digest it names. So they are not checked
+    /// again where these are the digests of the two halves of `problem`.
+    ///
+    /// # Errors
+    /// [`Rejected`] where they are not, with the first obligation that fails.
+    pub fn with_negative(
+        self,
+        problem: &Problem,
+        reflected: Proved<Certificate>,
+    ) -> Result<Proved<Certificate>, Rejected> {
+        let names = |proved: &Proved<Certificate>, half: &Problem| {
+            let certificate = &proved.certificate;
+            certificate.problem_sha256 == half.sha256()
+                && certificate.unknown == Unknown::Eigenvalue
+                && certificate.negative.is_none()
+        };
+        let half = problem.reflected();
+        let is_of_halves = half.is_some_and(|half| names(&reflected, &half));
+        let are_known = is_of_halves && names(&self, problem);
+
+        let accepted = self.accepted.clone();
+        let below = reflected.accepted.clone();
+        let certificate = self
+            .into_certificate()
+            .with_negative(reflected.into_certificate());
+        if !are_known {
+            return Proved::new(problem, certificate);
+        }
+
+        Ok(Proved {
+            certificate: Arc::new(certificate),
+            accepted: accepted.with_negative(below.claims, below.cover),
+        })
     }
 
     /// The claims, without a complete set, in as few files as their order and the limit of work of

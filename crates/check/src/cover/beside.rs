@@ -10,6 +10,8 @@
 
 use super::proved::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::AcceptedClaim;
+use mceip_exact::{Interval, Rational};
+use num_traits::Signed as _;
 
 /// A part of a cover that holds, or may hold, a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +48,29 @@ fn is_near(p: &AcceptedClaim, q: &AcceptedClaim) -> bool {
     let q_is_above = q.value.lo() > p.value.hi();
     let overlaps = !p_is_above && !q_is_above;
 
-    p.support == q.support && overlaps
+    p.support == q.support && overlaps && !are_on_both_sides(&ends(p), &ends(q))
+}
+
+/// Are these two intervals of values on both sides of 0, each with more than it?
+///
+/// Of values below 0 and of the others there are two covers. Where they are joined, what has an end
+/// at 0 does not meet what ends there on the other side.
+fn are_on_both_sides(p: &IntervalEnds<'_>, q: &IntervalEnds<'_>) -> bool {
+    side(p) * side(q) < 0
+}
+
+fn ends(claim: &AcceptedClaim) -> IntervalEnds<'_> {
+    [Some(claim.value.lo()), Some(claim.value.hi())]
+}
+
+/// The ends of an interval; none is infinity.
+type IntervalEnds<'a> = [Option<&'a Rational>; 2];
+
+/// 1 for values that are not negative, -1 for those that are not positive, 0 for both or 0 alone.
+fn side([lo, hi]: &IntervalEnds<'_>) -> i8 {
+    let is_from_zero = lo.is_some_and(|lo| !lo.is_negative());
+    let is_to_zero = hi.is_some_and(|hi| !hi.is_positive());
+    i8::from(is_from_zero) - i8::from(is_to_zero)
 }
 
 impl SolutionFamily {
@@ -61,7 +85,12 @@ impl SolutionFamily {
             Some(from) => from.lo() > claim.value.hi(),
             None => false,
         };
-        self.support == claim.support && !ends_before && !begins_after
+        let own = [
+            self.from.as_ref().map(Interval::lo),
+            self.to.as_ref().map(Interval::hi),
+        ];
+        let meets = !ends_before && !begins_after && !are_on_both_sides(&own, &ends(claim));
+        self.support == claim.support && meets
     }
 }
 
@@ -77,7 +106,8 @@ impl OpenRegion {
             Some(min) => min > claim.value.hi(),
             None => false,
         };
-        let meets = !ends_before && !begins_after;
+        let own = [self.min.as_ref(), self.max.as_ref()];
+        let meets = !ends_before && !begins_after && !are_on_both_sides(&own, &ends(claim));
 
         let is_possible = |i: &usize| self.moving.contains(i) || self.undecided.contains(i);
         let holds_known = self.moving.iter().all(|i| claim.support.contains(i));
@@ -89,7 +119,7 @@ impl OpenRegion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{Interval, whole};
+    use mceip_exact::whole;
 
     fn interval(a: i64, b: i64) -> Interval {
         Interval::new(whole(a), whole(b)).unwrap()
@@ -130,6 +160,43 @@ mod tests {
         }
         for (a, b) in [(2, 3), (7, 8)] {
             assert_eq!(cover.place_of(&claim(&[0, 2], a, b)), None, "[{a}, {b}]");
+        }
+    }
+
+    /// What ends at 0 on the other side is something else; what is 0 may be on either.
+    #[test]
+    fn nothing_belongs_to_the_other_side_of_zero() {
+        let family = |from: Option<Interval>, to: Option<Interval>| SolutionFamily {
+            support: vec![1],
+            from,
+            to,
+            is_point: false,
+            is_alone: true,
+        };
+        let region = |min: Option<i64>, max: Option<i64>| OpenRegion {
+            min: min.map(whole),
+            max: max.map(whole),
+            moving: vec![2],
+            undecided: vec![],
+        };
+        let cover = AcceptedCover {
+            solutions: vec![claim(&[0], -1, 0), claim(&[0], 0, 1)],
+            families: vec![
+                family(None, Some(interval(0, 0))),
+                family(Some(interval(0, 0)), None),
+            ],
+            open: vec![region(None, Some(0)), region(Some(0), Some(3))],
+            leaves: 1,
+        };
+
+        for (support, below, above) in [
+            (0, Place::Solution(0), Place::Solution(1)),
+            (1, Place::Family(0), Place::Family(1)),
+            (2, Place::Open(0), Place::Open(1)),
+        ] {
+            let place = |a, b| cover.place_of(&claim(&[support], a, b));
+            assert_eq!((place(-2, 0), place(0, 2)), (Some(below), Some(above)));
+            assert_eq!(place(0, 0), Some(below));
         }
     }
 

@@ -55,12 +55,13 @@ pub fn of_both_signs(
     let mut non_negative = non_negative.into_iter();
     let mut files = Vec::new();
     for reflected in reflected {
-        let reflected = reflected.into_certificate();
-        let file = match non_negative.next() {
-            Some(own) => own.into_certificate().with_negative(reflected),
-            None => of_negative_values(problem, reflected),
-        };
-        files.push(Proved::new(problem, file)?);
+        files.push(match non_negative.next() {
+            Some(own) => own.with_negative(problem, reflected)?,
+            None => {
+                let reflected = reflected.into_certificate();
+                Proved::new(problem, of_negative_values(problem, reflected))?
+            }
+        });
     }
 
     files.extend(non_negative);
