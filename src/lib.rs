@@ -31,7 +31,7 @@
 //!
 //! | you want to | call |
 //! |---|---|
-//! | read or make a problem | [`Problem::read`], [`Problem::from_matrices`], [`Problem::from_pencil`] |
+//! | make a problem | [`Problem::read`], [`Problem::from_matrices`], [`Problem::from_pencil`] |
 //! | find solutions | [`Problem::solve`] |
 //! | find all solutions, or prove that there are none | [`Problem::complete`] |
 //! | list all solutions of a small problem by plain enumeration | [`Problem::enumerate`] |
@@ -51,7 +51,7 @@
 //!    |           |                            | certify        untrusted
 //!    |           v                            v
 //!    |        oracle (exact enumeration)   certificate
-//!    +---------------------------------------> check -> accepted / rejected(reason)   trusted, exact
+//!    +---------------------------------------> check -> accepted / rejected   trusted, exact
 //! ```
 //!
 //! The parts are crates: `mceip_exact` numbers, `mceip_model` problems and files, `mceip_check`,

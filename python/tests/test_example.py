@@ -1,5 +1,6 @@
-"""The examples of the README, where scikit-fem is installed."""
+"""The examples of the README, where scikit-fem is installed, and the program of chapter 11."""
 
+import json
 import runpy
 from fractions import Fraction
 from pathlib import Path
@@ -8,6 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
+REPOSITORY = Path(__file__).parent.parent.parent
 
 
 def test_the_block_has_a_certified_critical_friction_and_a_drawing(tmp_path, monkeypatch, capsys):
@@ -43,3 +45,17 @@ def test_the_pad_slips_as_a_whole_in_the_end_and_has_a_critical_friction(capsys)
     lower, upper = answer.critical_friction
     assert Fraction("2.6482") < lower < upper < Fraction("2.6483")
     assert "ABSENT" in capsys.readouterr().out
+
+
+def test_the_first_program_of_chapter_11_runs(tmp_path, monkeypatch, capsys):
+    chapter = (REPOSITORY / "spec" / "eigenvalues.md").read_text()
+    program = chapter.split("```python\n")[1].split("```")[0]
+    monkeypatch.chdir(tmp_path)
+    exec(program, {})
+
+    assert capsys.readouterr().out.startswith("True [-6.145")
+    written = json.loads((tmp_path / "certificate.json").read_text())
+    assert written["unknown"] == "eigenvalue" and "negative" in written
+
+    readme = (REPOSITORY / "README.md").read_text()
+    assert all(f"    {line}\n" in readme for line in program.splitlines())

@@ -73,9 +73,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     let job = Job::begin("certifying");
     let reflected = problem.reflected();
-    let judge_half = |half: &Problem, is_here: &dyn Fn(f64) -> bool| {
+    let judge_sign = |of_sign: &Problem, is_here: &dyn Fn(f64) -> bool| {
         let certifying = Certifying {
-            problem: half,
+            problem: of_sign,
             radius: radius.as_ref(),
             job: &job,
         };
@@ -83,13 +83,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             // What is no vector has no value to go by.
             point
                 .as_ref()
-                .map_or(half == &problem, |point| is_here(point.candidate.value))
+                .map_or(of_sign == &problem, |point| is_here(point.candidate.value))
         });
-        Ok::<_, CliError>(certifying.judge(&reduce(half)?.pencil, here))
+        Ok::<_, CliError>(certifying.judge(&reduce(of_sign)?.pencil, here))
     };
-    let mut judged = judge_half(&problem, &|value| reflected.is_none() || value >= 0.0)?;
+    let mut judged = judge_sign(&problem, &|value| reflected.is_none() || value >= 0.0)?;
     let judged_negative = match &reflected {
-        Some(reflected) => Some(judge_half(reflected, &|value| value < 0.0)?),
+        Some(reflected) => Some(judge_sign(reflected, &|value| value < 0.0)?),
         None => None,
     };
     job.end();

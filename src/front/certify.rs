@@ -47,9 +47,9 @@ impl Problem {
     pub fn certify(&self, value: f64, x: &[f64]) -> Result<Certified, Error> {
         let problem = self.as_model();
         let reflected = problem.reflected().filter(|_| value < 0.0);
-        let half = reflected.as_ref().unwrap_or(problem);
-        let reduced = reduce(half)?;
-        let certifier = Certifier::new(half, &reduced.pencil);
+        let of_sign = reflected.as_ref().unwrap_or(problem);
+        let reduced = reduce(of_sign)?;
+        let certifier = Certifier::new(of_sign, &reduced.pencil);
         let x = x.to_vec();
         let mut candidate = Candidate { value, x };
         if reflected.is_some() {
@@ -57,8 +57,8 @@ impl Problem {
         }
         let (claim, mut proved) = certifier.certify_with_verdict(&candidate)?;
 
-        let mut listed = Listed::of_claim(half, &reduced, &claim);
-        let mut certificate = certificate(half, vec![claim]);
+        let mut listed = Listed::of_claim(of_sign, &reduced, &claim);
+        let mut certificate = certificate(of_sign, vec![claim]);
         if reflected.is_some() {
             proved = proved.reflected();
             listed = listed.reflected();

@@ -3,10 +3,10 @@
 use super::error::Error;
 use super::problem::Problem;
 use super::run::{Watched, watched_question};
-use super::solution::Solution;
+use super::solution::{Solution, SolutionEntry, entries_of_both_signs};
 use crate::say;
 use mceip_check::certificate::Certificate;
-use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, Proved, SolutionFamily};
+use mceip_check::{AcceptedCover, OpenRegion, Proved, SolutionFamily};
 use mceip_engine::analysis::ProofCertificate;
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
@@ -62,8 +62,11 @@ impl SetOfSign {
         })
     }
 
-    fn listed(&self) -> impl Iterator<Item = (&AcceptedClaim, Listed)> {
-        Listed::of_cover(&self.problem, &self.reduced, &self.completed)
+    fn entries(&self) -> Vec<SolutionEntry> {
+        let listed = Listed::of_cover(&self.problem, &self.reduced, &self.completed);
+        listed
+            .map(|(proved, listed)| (proved.clone(), listed))
+            .collect()
     }
 }
 
@@ -168,16 +171,11 @@ impl SolutionSet {
 
     fn listed(&self) -> &(Vec<Solution>, Vec<Listed>) {
         self.listed.get_or_init(|| {
-            let own = self.non_negative.listed();
-            let mut entries: Vec<(AcceptedClaim, Listed)> = own
-                .map(|(proved, listed)| (proved.clone(), listed))
-                .collect();
+            let mut entries = self.non_negative.entries();
             if let Some(negative) = &self.negative {
-                entries.extend(negative.listed().map(reflected_entry));
-                // What has the value 0 is in both halves: the joined cover says what it is.
+                entries = entries_of_both_signs(entries, negative.entries());
+                // A solution at 0 may be one of a family: the joined cover says what it is.
                 entries.retain(|(proved, _)| self.cover.solutions.contains(proved));
-                entries.sort_by(|(p, _), (q, _)| by_value(p).cmp(&by_value(q)));
-                entries.dedup_by(|next, kept| next.0 == kept.0);
             }
 
             let mut solutions = Vec::new();
@@ -190,16 +188,6 @@ impl SolutionSet {
             (solutions, all_listed)
         })
     }
-}
-
-/// The order of a list.
-fn by_value(solution: &AcceptedClaim) -> (&Rational, &[usize]) {
-    (solution.value.lo(), &solution.support)
-}
-
-/// A solution of the reflected problem as one of the problem.
-fn reflected_entry((proved, listed): (&AcceptedClaim, Listed)) -> (AcceptedClaim, Listed) {
-    (proved.clone().reflected(), listed.reflected())
 }
 
 impl fmt::Display for SolutionSet {
@@ -254,10 +242,10 @@ impl Problem {
         };
 
         let digest = reflected.sha256();
-        let halves = parts
+        let by_sign = parts
             .iter()
-            .map(|part| part.clone().into_halves(digest.clone()));
-        let (parts, negative_parts): (Vec<_>, Vec<_>) = halves.unzip();
+            .map(|part| part.clone().by_sign(digest.clone()));
+        let (parts, negative_parts): (Vec<_>, Vec<_>) = by_sign.unzip();
         let negative_parts: Option<Vec<_>> = negative_parts.into_iter().collect();
         let negative_parts = negative_parts.ok_or(CompleteError::NoCompleteSet)?;
         let completed = merge(problem, &parts)?;
@@ -329,14 +317,14 @@ impl<'a> Complete<'a> {
         let problem = self.problem.as_model();
         let watch = self.watched.watch();
         let Some(reflected) = problem.reflected() else {
-            let completed = self.half(problem, self.earlier, &watch)?;
+            let completed = self.of_sign(problem, self.earlier, &watch)?;
             return SolutionSet::new(problem, completed, None);
         };
 
         let earlier = self.earlier.cloned();
-        let earlier = earlier.map(|earlier| earlier.into_halves(reflected.sha256()));
+        let earlier = earlier.map(|earlier| earlier.by_sign(reflected.sha256()));
         let (earlier, earlier_negative) = earlier.unzip();
-        let completed = self.half(problem, earlier.as_ref(), &watch)?;
+        let completed = self.of_sign(problem, earlier.as_ref(), &watch)?;
 
         // What is kept meanwhile is about the problem, and holds what is proved of both signs.
         let keep = |kept: &Kept<'_>| {
@@ -361,7 +349,7 @@ impl<'a> Complete<'a> {
             .map(|keeper| Keeper::new(keeper.every, &keep));
         let earlier_negative = earlier_negative.flatten();
         let watch = watch.kept_by(keeper);
-        let negative = self.half(&reflected, earlier_negative.as_ref(), &watch)?;
+        let negative = self.of_sign(&reflected, earlier_negative.as_ref(), &watch)?;
         SolutionSet::new(
             problem,
             completed,
@@ -370,7 +358,7 @@ impl<'a> Complete<'a> {
     }
 
     /// Searches for values of one sign.
-    fn half(
+    fn of_sign(
         &self,
         problem: &mceip_model::Problem,
         earlier: Option<&Certificate>,

@@ -4,7 +4,6 @@ use mceip_check::AcceptedClaim;
 use mceip_engine::report::Listed;
 use mceip_exact::{Interval, Rational};
 use mceip_model::Unknown;
-use num_traits::Zero as _;
 use std::fmt;
 
 /// A solution that the checker has accepted.
@@ -55,12 +54,6 @@ impl Solution {
         }
     }
 
-    /// Is it this solution, at the value 0?
-    pub(super) fn is_at_zero(&self, other: &AcceptedClaim) -> bool {
-        let is_zero = self.exact_value().is_some_and(Rational::is_zero);
-        is_zero && self.enclosure == other.value && self.support == other.support
-    }
-
     /// The value itself, where it is rational and known.
     pub fn exact_value(&self) -> Option<&Rational> {
         self.enclosure.is_point().then(|| self.enclosure.lo())
@@ -73,6 +66,26 @@ impl fmt::Display for Solution {
         let unknown = self.unknown.word();
         write!(f, "{unknown} = {}, slip {:?}", self.value, self.support)
     }
+}
+
+/// A solution as it is proved, and as it is listed.
+pub(super) type SolutionEntry = (AcceptedClaim, Listed);
+
+/// The solutions of both signs by value, then by support; `reflected` are those of the reflected
+/// problem. What has the value 0 is in both, and listed once.
+pub(super) fn entries_of_both_signs(
+    own: Vec<SolutionEntry>,
+    reflected: Vec<SolutionEntry>,
+) -> Vec<SolutionEntry> {
+    let reflected = reflected.into_iter();
+    let reflected = reflected.map(|(proved, listed)| (proved.reflected(), listed.reflected()));
+    let mut entries: Vec<SolutionEntry> = own.into_iter().chain(reflected).collect();
+    entries.sort_by(|(p, _), (q, _)| {
+        let by_value = p.value.lo().cmp(q.value.lo());
+        by_value.then_with(|| p.support.cmp(&q.support))
+    });
+    entries.dedup_by(|next, kept| next.0 == kept.0);
+    entries
 }
 
 /// The nearest double of a decimal that our own writer has made.

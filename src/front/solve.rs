@@ -3,10 +3,10 @@
 use super::error::Error;
 use super::problem::Problem;
 use super::run::{Watched, watched_question};
-use super::solution::Solution;
+use super::solution::{Solution, SolutionEntry, entries_of_both_signs};
 use crate::say;
+use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{AcceptedClaim, Proved};
 use mceip_engine::certify::{Preference, of_both_signs};
 use mceip_engine::multistart::{self, Search, Uncertified, multistart};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
@@ -55,7 +55,7 @@ impl Found {
         solutions_json(&self.report())
     }
 
-    /// What the search has found among the values that are not negative, as the engine has it.
+    /// What the search has found, as the engine has it.
     pub fn as_run(&self) -> &multistart::MultistartFound {
         &self.run
     }
@@ -153,52 +153,41 @@ impl<'a> Solve<'a> {
     /// problem is beyond the solver.
     pub fn run(self) -> Result<Found, Error> {
         let problem = self.problem.as_model();
-        let mut half = self.half(problem)?;
-        let mut solutions = Vec::new();
-        let mut uncertified = Vec::new();
-        let mut all_listed = Vec::new();
-
+        let FoundOfSign {
+            mut run,
+            mut certificates,
+            mut entries,
+        } = self.of_sign(problem)?;
         if let Some(reflected) = problem.reflected() {
-            let negative = self.half(&reflected)?;
-            for (proved, listed) in negative.entries.into_iter().rev() {
-                let (proved, listed) = (proved.reflected(), listed.reflected());
-                solutions.push(Solution::new(problem.unknown(), &proved, &listed));
-                all_listed.push(listed);
-            }
-            for mut point in negative.run.uncertified {
-                point.candidate = point.candidate.reflected();
-                uncertified.push(point);
-            }
-            // What has the value 0 is in both halves.
-            half.entries
-                .retain(|(proved, _)| !solutions.iter().any(|s| s.is_at_zero(proved)));
-            half.run.runs += negative.run.runs;
-            half.run.interrupted |= negative.run.interrupted;
-            half.certificates = of_both_signs(problem, half.certificates, negative.certificates)?;
+            let negative = self.of_sign(&reflected)?;
+            run = run.with_reflected(negative.run);
+            certificates = of_both_signs(problem, certificates, negative.certificates)?;
+            entries = entries_of_both_signs(entries, negative.entries);
         }
 
-        for (proved, listed) in half.entries {
+        let mut solutions = Vec::new();
+        let mut all_listed = Vec::new();
+        for (proved, listed) in entries {
             solutions.push(Solution::new(problem.unknown(), &proved, &listed));
             all_listed.push(listed);
         }
-        uncertified.extend(half.run.uncertified.iter().cloned());
 
         Ok(Found {
             solutions,
-            uncertified,
-            runs: half.run.runs,
-            is_cancelled: half.run.interrupted,
-            certificates: half.certificates,
+            uncertified: run.uncertified.clone(),
+            runs: run.runs,
+            is_cancelled: run.interrupted,
+            certificates,
             problem: problem.clone(),
             reduced: reduce(problem)?,
             listed: all_listed,
             search: self.search,
-            run: half.run,
+            run,
         })
     }
 
     /// Searches for values of one sign.
-    fn half(&self, problem: &mceip_model::Problem) -> Result<FoundOfSign, Error> {
+    fn of_sign(&self, problem: &mceip_model::Problem) -> Result<FoundOfSign, Error> {
         let reduced = reduce(problem)?;
         let watch = self.watched.watch();
         let run = multistart(problem, &reduced, &self.search, &watch)?;
@@ -227,7 +216,7 @@ impl<'a> Solve<'a> {
 struct FoundOfSign {
     run: multistart::MultistartFound,
     certificates: Vec<Proved<Certificate>>,
-    entries: Vec<(AcceptedClaim, Listed)>,
+    entries: Vec<SolutionEntry>,
 }
 
 #[cfg(test)]

@@ -201,7 +201,7 @@ impl Proved<Certificate> {
     /// values below 0.
     ///
     /// Both have been accepted, each for the problem whose digest it names. So they are not checked
-    /// again where these are the digests of the two halves of `problem`.
+    /// again where these are the digests of `problem` and of its reflection.
     ///
     /// # Errors
     /// [`Rejected`] where they are not, with the first obligation that fails.
@@ -210,15 +210,15 @@ impl Proved<Certificate> {
         problem: &Problem,
         reflected: Proved<Certificate>,
     ) -> Result<Proved<Certificate>, Rejected> {
-        let names = |proved: &Proved<Certificate>, half: &Problem| {
+        let names = |proved: &Proved<Certificate>, problem: &Problem| {
             let certificate = &proved.certificate;
-            certificate.problem_sha256 == half.sha256()
+            certificate.problem_sha256 == problem.sha256()
                 && certificate.unknown == Unknown::Eigenvalue
                 && certificate.negative.is_none()
         };
-        let half = problem.reflected();
-        let is_of_halves = half.is_some_and(|half| names(&reflected, &half));
-        let are_known = is_of_halves && names(&self, problem);
+        let reflection = problem.reflected();
+        let is_of_reflection = reflection.is_some_and(|problem| names(&reflected, &problem));
+        let are_known = is_of_reflection && names(&self, problem);
 
         let accepted = self.accepted.clone();
         let below = reflected.accepted.clone();

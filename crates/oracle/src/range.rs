@@ -173,7 +173,8 @@ impl SingularSupport<'_> {
 
     /// Goes up through the critical values and the cells between them.
     fn extent(&self, critical: &Poly) -> ValueSet {
-        // 0 is a root; the others are isolated on their side of it.
+        // 0 is a root. The others are isolated on their side of it, so that how a positive value is
+        // enclosed does not depend on the negative ones.
         let zero = Rational::zero();
         let mut below = roots_in(critical, None, Some(&zero));
         below.pop();

@@ -229,7 +229,7 @@ impl Certificate {
 
     /// What it says of values that are not negative, and what it says of the others, as a
     /// certificate of the reflected problem with this digest.
-    pub fn into_halves(self, reflected_sha256: String) -> (Certificate, Option<Certificate>) {
+    pub fn by_sign(self, reflected_sha256: String) -> (Certificate, Option<Certificate>) {
         let unknown = self.unknown;
         let reflected = self.negative.map(|negative| Certificate {
             problem_sha256: reflected_sha256,

@@ -104,7 +104,13 @@ impl ProofCertificate {
             (ProofCertificate::Absence(p), ProofCertificate::Absence(q)) => p.is_clone_of(q),
             (ProofCertificate::Presence(p), ProofCertificate::Presence(q)) => p.is_clone_of(q),
             (ProofCertificate::Stability(p), ProofCertificate::Stability(q)) => p.is_clone_of(q),
-            _ => false,
+            (
+                ProofCertificate::Solutions(_)
+                | ProofCertificate::Absence(_)
+                | ProofCertificate::Presence(_)
+                | ProofCertificate::Stability(_),
+                _,
+            ) => false,
         }
     }
 }

@@ -24,7 +24,7 @@ pub struct Uncertified {
 /// A certified solution (the checker has accepted its claim) and the start that led to it first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCandidate {
-    /// The claim for the certificate.
+    /// The claim for the certificate; where the value is below 0, for its part `negative`.
     pub claim: Claim,
     /// The candidate it was made from.
     pub candidate: Candidate,
@@ -83,6 +83,43 @@ pub struct MultistartFound {
 }
 
 impl MultistartFound {
+    /// Together with what was found of the reflected problem: values change their sign, counts are
+    /// added, and runs are numbered on.
+    #[must_use]
+    pub fn with_reflected(mut self, reflected: MultistartFound) -> MultistartFound {
+        for mut found in reflected.certified {
+            found.candidate = found.candidate.reflected();
+            found.run += self.runs;
+            self.certified.push(found);
+        }
+        self.certified
+            .sort_by(|p, q| p.candidate.value.total_cmp(&q.candidate.value));
+
+        for mut point in reflected.uncertified {
+            point.candidate = point.candidate.reflected();
+            self.uncertified.push(point);
+        }
+        for (end, count) in reflected.terminations {
+            *self.terminations.entry(end).or_default() += count;
+        }
+        for (end, count) in reflected.curves {
+            *self.curves.entry(end).or_default() += count;
+        }
+
+        self.outside += reflected.outside;
+        self.repeated += reflected.repeated;
+        self.on_continua += reflected.on_continua;
+        self.met_again += reflected.met_again;
+        self.runs += reflected.runs;
+        self.pivots += reflected.pivots;
+        self.factorisations += reflected.factorisations;
+        self.plain.0 += reflected.plain.0;
+        self.plain.1 += reflected.plain.1;
+        self.trace.extend(reflected.trace);
+        self.interrupted |= reflected.interrupted;
+        self
+    }
+
     /// Is `candidate` the same point as one that was found, certified or not, within rounding?
     pub fn knows(&self, candidate: &Candidate) -> bool {
         let certified = self.certified.iter().map(|entry| &entry.candidate);
