@@ -50,6 +50,8 @@ class Contact:
         reaction_normal: the same along the normal degree of freedom; give both.
         friction_factor_range: between which numbers `friction_factor` is known to lie
             (spec/robust.md); none: it is exact.
+        curvature: of the obstacle, 1 / R on a cylinder of radius R, positive where it is convex
+            (spec/curvature.md). Where a particle slips, its reaction is needed beside it.
     """
 
     tangential: int
@@ -63,6 +65,7 @@ class Contact:
     reaction_tangential: Number | None = None
     reaction_normal: Number | None = None
     friction_factor_range: Sequence[Number] | None = None
+    curvature: Number = 0
 
 
 #: A list of `Contact`, or a table: a path to a CSV file, a pandas DataFrame, a mapping of columns,
@@ -250,6 +253,7 @@ def plain_contact(name: str, contact: Contact) -> Contact:
         reaction_tangential=along_dofs[0],
         reaction_normal=along_dofs[1],
         friction_factor_range=spelt_range(name, contact.friction_factor_range),
+        curvature=spelt(contact.curvature, f"{name}: curvature"),
     )
 
 

@@ -106,7 +106,7 @@ class Problem:
             friction: the coefficient mu.
             contacts: a list of `Contact`; or a table with the columns `tangential`, `normal`,
                 `state`, and optionally `particle`, `normal_direction`, `angle`, `normal_x`,
-                `normal_y`, `friction_factor`, `reaction_tangential`, `reaction_normal`
+                `normal_y`, `friction_factor`, `reaction_tangential`, `reaction_normal`, `curvature`
                 (spec/tutorial.md): a path to a CSV file, a pandas DataFrame, a mapping of columns,
                 or a list of rows as mappings. Reactions are held against (7).
             stiffness_radius: R_K, N x N, symmetric, >= 0: how far each entry of K may be off, such

@@ -3,7 +3,10 @@
 use crate::MceipError;
 use crate::number;
 use mceip::{ContactState, Particle, Rational};
-use mceip_paper::{ContactTable, ReactionPlace, make_frames_exact, read_contacts, with_reaction};
+use mceip_paper::{
+    ContactTable, ContactsError, ReactionPlace, make_frames_exact, read_contacts, with_curvature,
+    with_reaction,
+};
 use pyo3::prelude::*;
 
 /// The contacts of a mechanical system.
@@ -29,6 +32,7 @@ pub(crate) struct Contact {
     reaction_tangential: Option<String>,
     reaction_normal: Option<String>,
     friction_factor_range: Option<[String; 2]>,
+    curvature: String,
 }
 
 impl Contacts {
@@ -65,18 +69,25 @@ fn of_list(contacts: Vec<Contact>, friction: Option<&Rational>) -> PyResult<Cont
     let given = contacts.iter().enumerate().map(reaction);
     let given: Vec<Option<[Rational; 2]>> = given.collect::<PyResult<_>>()?;
     let friction = require_friction(friction, given.iter().any(Option::is_some))?;
+    let curvatures = contacts.iter().map(|c| number("curvature", &c.curvature));
+    let curvatures: Vec<Rational> = curvatures.collect::<PyResult<_>>()?;
     let particles = contacts.into_iter().enumerate().map(of_entry);
     let mut particles: Vec<Particle> = particles.collect::<PyResult<_>>()?;
     make_frames_exact(&mut particles);
 
     let mut reactions = vec![None; particles.len()];
-    for (index, along_dofs) in given.into_iter().enumerate() {
+    for (index, (along_dofs, curvature)) in given.into_iter().zip(curvatures).enumerate() {
+        let refused = |e: ContactsError| MceipError::new_err(e.to_string());
+        let place = ReactionPlace::Entry(index);
+        let flat = particles[index].clone();
+        let particle = with_curvature(flat, curvature, along_dofs.as_ref(), place);
+        particles[index] = particle.map_err(refused)?;
         let Some(along_dofs) = along_dofs else {
             continue;
         };
-        let place = ReactionPlace::Entry(index);
+
         let held = with_reaction(particles[index].clone(), along_dofs, &friction, place);
-        let (particle, reaction) = held.map_err(|e| MceipError::new_err(e.to_string()))?;
+        let (particle, reaction) = held.map_err(refused)?;
         particles[index] = particle;
         reactions[index] = Some(reaction);
     }

@@ -9,6 +9,7 @@ mod third;
 
 mod algebra;
 mod counterexamples;
+mod curved;
 mod known_answers;
 mod members;
 mod oracle_degenerate;

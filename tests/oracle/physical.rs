@@ -187,6 +187,46 @@ fn friction_factors_count_in_both_routes() {
     assert!(changed >= 40, "{changed} solutions of factors alone");
 }
 
+/// 70 mixtures with friction factors on curved obstacles: the motions are the solutions of the
+/// reduced pencil, and each satisfies the lines of (9) when it is lifted. On flat obstacles few of
+/// them do.
+#[test]
+fn curved_obstacles_count_in_both_routes() {
+    let unknown = Unknown::Lambda2;
+    let mut solutions = 0;
+    let mut changed = 0;
+
+    for number in 0..2 * states::MIXTURES {
+        let mut rng = rng(FAMILY, 3000 + number);
+        let mixture = states::mixture(number);
+        let plain = states::system(&mut rng, &mixture, &mut Vec::new()).unwrap();
+        let flat = with_factors(&plain, &mut rng);
+        let system = states::on_curved_obstacles(&mut rng, &flat, &mut Vec::new()).unwrap();
+
+        let physical = PhysicalSystem::of(&system, unknown).unwrap();
+        let direct = enumerate_motions(&physical, &Window::all()).unwrap();
+        let route = reduced_route(&system, unknown);
+        if !direct.degenerate.is_empty() || !route.found.is_plain_list() {
+            continue;
+        }
+
+        assert_same(&direct.motions, &route, &format!("system {number}"));
+        for solution in &route.found.solutions {
+            let lifted = lift(&system, unknown, &route.variables, &solution.x);
+            let value = &mut solution.value.clone();
+            assert_eq!(check_lines(&system, unknown, &lifted, value), Ok(()));
+            changed += usize::from(check_lines(&flat, unknown, &lifted, value).is_err());
+            solutions += 1;
+        }
+    }
+
+    assert!(solutions >= 100, "{solutions} solutions");
+    assert!(
+        changed >= 80,
+        "{changed} solutions of curved obstacles alone"
+    );
+}
+
 /// The system with some of its particles in contact with zero reaction.
 struct WithZero {
     /// In it the z particles have some other state, which is not used.

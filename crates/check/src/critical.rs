@@ -87,17 +87,23 @@ fn verdict(
 }
 
 /// The pencil of the problem as a function of mu: it must be a mechanical system with unknown
-/// lambda^2.
+/// lambda^2 on flat obstacles.
+///
+/// Soundness hangs on the last: T = T0 + mu T1 leaves out what turns along a curved obstacle.
 pub(crate) fn friction_parts(problem: &Problem) -> Result<FrictionParts, Reason> {
     let Body::System(system) = problem.body() else {
         return Err(Reason::NotASystem);
     };
 
-    match (problem.unknown(), system.mass()) {
-        (Unknown::Lambda2, Some(mass)) => Ok(FrictionParts::of(system, mass)),
-        _ => Err(Reason::Unknown {
+    let (Unknown::Lambda2, Some(mass)) = (problem.unknown(), system.mass()) else {
+        return Err(Reason::Unknown {
             expected: problem.unknown().word(),
             got: Unknown::Lambda2.word(),
-        }),
+        });
+    };
+    if let Some(particle) = system.curved_particle() {
+        return Err(Reason::Curved { particle });
     }
+
+    Ok(FrictionParts::of(system, mass))
 }

@@ -10,6 +10,8 @@
 //! 3. w_f = 0 at the free degrees of freedom.
 //! 4. Stick: v = 0 at both degrees of freedom of the particle. Slip: v_N = 0; S v_T < 0 on the
 //!    support, else S v_T = 0; S w_T + mu w_N = 0 on the support and where biactive, else < 0.
+//!    On a curved obstacle (`spec/curvature.md`) (1 + mu^2) g S v_T stands beside S w_T + mu w_N;
+//!    off the support it is 0.
 //!    Zero reaction, with the variables gap, right and left: v_N < 0 if gap is in the support, else
 //!    v_N = 0; w_N = 0 if gap is in the support or biactive, else w_N < 0; v_T > 0 if right is in
 //!    the support, v_T < 0 if left is, else v_T = 0; the cone line of S = -1 for right, that of
@@ -186,26 +188,21 @@ impl Lines<'_> {
             self.zero("S v_T = 0 off the support", "particle", index, &slip_rate)?;
         }
 
-        self.on_cone(index, particle, &s, slip)
+        let mut cone = self.cone(particle, &s);
+        add(&mut cone, &self.turning(particle), &slip_rate, 0);
+        self.on_cone(index, &cone, slip)
     }
 
-    /// The sign of S w_T + mu w_N.
-    fn on_cone(
-        &self,
-        index: usize,
-        particle: &Particle,
-        s: &Rational,
-        slip: ClaimedPair,
-    ) -> Result<(), Reason> {
-        let cone = self.cone(particle, s);
+    /// The sign of S w_T + mu w_N, which is `cone`.
+    fn on_cone(&self, index: usize, cone: &Polynomial, slip: ClaimedPair) -> Result<(), Reason> {
         let line = match slip {
             ClaimedPair::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
             ClaimedPair::Biactive => "S w_T + mu w_N = 0 where biactive",
             ClaimedPair::AtZero => {
-                return self.negative("S w_T + mu w_N < 0 where not biactive", index, &cone);
+                return self.negative("S w_T + mu w_N < 0 where not biactive", index, cone);
             }
         };
-        self.zero(line, "particle", index, &cone)
+        self.zero(line, "particle", index, cone)
     }
 
     /// The signs of v_N and w_N at a particle with zero reaction.
@@ -251,8 +248,21 @@ impl Lines<'_> {
             }
         }
 
-        self.on_cone(index, particle, &minus_one, right)?;
-        self.on_cone(index, particle, &one, left)
+        self.on_cone(index, &self.cone(particle, &minus_one), right)?;
+        self.on_cone(index, &self.cone(particle, &one), left)
+    }
+
+    /// (1 + c^2 mu^2) kappa r_N of a slip particle, 0 on a flat obstacle. With mu as the unknown all
+    /// are flat.
+    fn turning(&self, particle: &Particle) -> Rational {
+        match (self.unknown, self.system.friction(), &particle.curvature) {
+            (Unknown::Lambda2, Some(mu), Some(curvature)) => {
+                let friction = mu * &particle.friction_factor;
+                let turned = Rational::one() + &friction * &friction;
+                turned * &curvature.value * &curvature.normal_reaction
+            }
+            _ => Rational::zero(),
+        }
     }
 
     /// S w_T + mu w_N, where mu is a number of the system or the unknown itself.

@@ -17,7 +17,9 @@
 //!     e_dof for a free dof,    -(S t + mu n) for a slip particle,           // (11)
 //! ```
 //!
-//! n its unit normal into the obstacle, times the friction factor of the particle. A particle in
+//! n its unit normal into the obstacle, times the friction factor c of the particle. On a curved
+//! obstacle (`spec/curvature.md`) y has (1 + c^2 mu^2) g x more, g the product of its curvature and
+//! the normal reaction. A particle in
 //! contact with zero reaction has three variables (`spec/zero-reaction.md`, Z.3), with the columns
 //!
 //! ```text
@@ -36,7 +38,7 @@
 
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
-use mceip_model::{Body, ContactState, Direction, Problem, System, Unknown};
+use mceip_model::{Body, ContactState, Curvature, Direction, Particle, Problem, System, Unknown};
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
 
@@ -419,8 +421,13 @@ fn of_system(system: &System, unknown: Unknown) -> Rows {
             (Unknown::Lambda2, Some(mass), Some(mu)) => {
                 let mut p = plain.clone();
                 p.extend(scale(friction, mu));
+                let mut of_stiffness: BTreeMap<usize, Rational> =
+                    variables.reduced(&p, stiffness).into_iter().collect();
+                if let Some(turning) = variables.turning(i, mu) {
+                    *of_stiffness.entry(i).or_default() += turning;
+                }
                 (
-                    variables.reduced(&p, stiffness),
+                    of_stiffness.into_iter().collect(),
                     variables.reduced(&p, mass),
                 )
             }
@@ -447,6 +454,8 @@ struct Variables {
     rows: Vec<Direction>,
     /// What friction adds to each column of P, divided by mu.
     friction: Vec<Direction>,
+    /// The particles that slip, whose variables follow the free ones.
+    slip: Vec<Particle>,
     /// One entry for each particle with zero reaction.
     halves: Vec<Halves>,
     /// T by rows.
@@ -464,7 +473,9 @@ impl Variables {
         let mut rows = columns.clone();
         let mut friction: Vec<Direction> = vec![Vec::new(); free_dofs.len()];
 
+        let mut slip = Vec::new();
         for (particle, sign) in system.slip_particles() {
+            slip.push(particle.clone());
             let minus_s = Rational::from_integer((-sign).into());
             columns.push(scale(&particle.tangent(), &minus_s)); // (10): v_T = -S x
             rows.push(scale(&particle.tangent(), &minus_s)); // (11): y = -(S w_T + mu w_N)
@@ -505,6 +516,7 @@ impl Variables {
             columns,
             rows,
             friction,
+            slip,
             halves,
         }
     }
@@ -512,6 +524,19 @@ impl Variables {
     /// The row p' M T.
     fn reduced(&self, p: &Direction, matrix: &Sparse) -> RationalRow {
         self.trial.reduced(p, matrix)
+    }
+
+    /// What turns along a curved obstacle, in row i: the factor (1 + c^2 mu^2) kappa r_N of x_i.
+    fn turning(&self, i: usize, mu: &Rational) -> Option<Rational> {
+        let particle = self.slip.get(i.checked_sub(self.free)?)?;
+        let Curvature {
+            value,
+            normal_reaction,
+        } = particle.curvature.as_ref()?;
+
+        let friction = mu * &particle.friction_factor;
+        let one = Rational::from_integer(1.into());
+        Some((one + &friction * &friction) * value * normal_reaction)
     }
 }
 
@@ -600,7 +625,7 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
     use mceip_model::reduction::reduce;
-    use mceip_model::{Particle, Pencil, Window};
+    use mceip_model::{Pencil, Window};
 
     /// A symmetric matrix of order 6 with entries from -3 to 3 over `denominator`, and `diagonal`
     /// added to its diagonal.

@@ -160,6 +160,15 @@ pub enum Reason {
          (absence below a friction and presence treat them)"
     )]
     Radii,
+    /// A kind of certificate that lets mu vary on flat obstacles, of a problem with curved ones.
+    #[error(
+        "obstacle: expected a flat one for this kind of certificate, got a curved one at particle \
+         {particle} (a complete set of lambda^2 treats it at one friction)"
+    )]
+    Curved {
+        /// The particle.
+        particle: usize,
+    },
     /// The certificate was made for the other eigenproblem.
     #[error("unknown: expected {expected}, got {got}")]
     Unknown {

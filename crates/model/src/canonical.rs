@@ -122,6 +122,8 @@ fn write_particle(out: &mut String, particle: &Particle) {
         frame: _,
         friction_factor,
         friction_factor_range,
+        // It counts by the geometric stiffness below.
+        curvature: _,
         // These two are no part of the question.
         reaction: _,
         name: _,
@@ -141,6 +143,11 @@ fn write_particle(out: &mut String, particle: &Particle) {
     }
     if let Some([lo, hi]) = friction_factor_range {
         line(out, &format!("friction_factor_range {lo} {hi}"));
+    }
+
+    let geometric_stiffness = particle.geometric_stiffness();
+    if !geometric_stiffness.is_zero() {
+        line(out, &format!("geometric_stiffness {geometric_stiffness}"));
     }
 }
 

@@ -256,6 +256,26 @@ pub enum ModelError {
         /// The particle.
         particle: usize,
     },
+    /// A curved obstacle, where it is not treated.
+    #[error(
+        "E9: particle {particle} slips on a curved obstacle; expected flat ones here \
+         (not supported: complete, solve, enumerate, certify and check treat curved obstacles, \
+         with the unknown lambda2 at one friction: spec/curvature.md)"
+    )]
+    Curved {
+        /// The particle.
+        particle: usize,
+    },
+    /// A curvature stands at a particle that does not slip, or with a normal reaction that is none.
+    #[error("E7: particle {particle}: curvature: expected {expected}, got {got}")]
+    Curvature {
+        /// The particle.
+        particle: usize,
+        /// What was expected.
+        expected: &'static str,
+        /// What was found.
+        got: String,
+    },
     /// A sign is neither 1 nor -1, or is missing on a slip particle, or stands on another one.
     #[error("E10: particle {particle}: expected {field} {expected}, got {got}")]
     Sign {

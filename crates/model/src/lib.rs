@@ -31,5 +31,5 @@ pub use pencil::{Admissible, Pencil, Unknown};
 pub use problem::{Body, Problem};
 pub use radii::Radii;
 pub use reduced::{MuFamily, Reduced, ReducedVariable, ZeroPart, ZeroVariables};
-pub use system::{ContactState, Direction, Particle, Reaction, System};
+pub use system::{ContactState, Curvature, Direction, Particle, Reaction, System};
 pub use window::{RealWindow, Window};

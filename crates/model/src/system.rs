@@ -6,7 +6,8 @@
 //!
 //! at an equilibrium state, which says of every contact candidate particle whether it is out of
 //! contact (f), sticks (d), is about to slip (s, with the sign S of its tangential reaction) or
-//! touches the obstacle without a reaction (z).
+//! touches the obstacle without a reaction (z). At an s particle the obstacle may be curved
+//! (`spec/curvature.md`).
 //!
 //! Input: matrices over Q of order N, one row per degree of freedom, and the particles. What
 //! section 2 supposes is established when a [`System`] is made: every system that exists is one.
@@ -76,6 +77,15 @@ pub struct Reaction {
     pub normal: Rational,
 }
 
+/// The obstacle at a particle in impending slip, where it is not flat.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Curvature {
+    /// kappa: 1 / R on a cylinder of radius R, positive where the obstacle is convex.
+    pub value: Rational,
+    /// r_N < 0 at the equilibrium, which turns with the obstacle.
+    pub normal_reaction: Rational,
+}
+
 /// A contact candidate particle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Particle {
@@ -95,6 +105,8 @@ pub struct Particle {
     pub friction_factor_range: Option<[Rational; 2]>,
     /// The reaction at equilibrium, checked against (7) and the sign.
     pub reaction: Option<Reaction>,
+    /// The curved obstacle that it may slip along; `None`: a flat one.
+    pub curvature: Option<Curvature>,
     /// A name for people: no answer and no digest depends on it.
     pub name: Option<String>,
 }
@@ -103,7 +115,8 @@ pub struct Particle {
 pub type Direction = Vec<(usize, Rational)>;
 
 impl Particle {
-    /// A particle in the paper's own directions: friction factor 1, no frame, no reaction.
+    /// A particle in the paper's own directions: friction factor 1, no frame, no reaction, on a
+    /// flat obstacle.
     pub fn plain(tangential: usize, normal: usize, state: ContactState) -> Self {
         Particle {
             tangential,
@@ -114,6 +127,7 @@ impl Particle {
             friction_factor: Rational::one(),
             friction_factor_range: None,
             reaction: None,
+            curvature: None,
             name: None,
         }
     }
@@ -144,6 +158,22 @@ impl Particle {
             .into_iter()
             .map(|(dof, coefficient)| (dof, coefficient * &self.friction_factor))
             .collect()
+    }
+
+    /// g = kappa r_N, the force per length by which the reaction that turns with the obstacle
+    /// pulls along it; 0 on a flat one. (9) of this particle has S w_T + c mu w_N +
+    /// (1 + c^2 mu^2) g S v_T in place of S w_T + c mu w_N.
+    pub fn geometric_stiffness(&self) -> Rational {
+        match &self.curvature {
+            Some(curvature) => &curvature.value * &curvature.normal_reaction,
+            None => Rational::zero(),
+        }
+    }
+
+    /// (1 + c^2 mu^2) g: what the turning reaction adds to the diagonal of K* at this mu.
+    pub fn turning_stiffness(&self, mu: &Rational) -> Rational {
+        let own_friction = mu * &self.friction_factor;
+        (Rational::one() + &own_friction * &own_friction) * self.geometric_stiffness()
     }
 
     fn direction(&self, row: usize, factor: Rational) -> Direction {
@@ -242,11 +272,13 @@ impl System {
     ///
     /// # Errors
     /// [`ModelError`] for radii of another shape, that are not symmetric or negative, for a radius
-    /// of M without M, and for particles in contact with zero reaction, which are not treated.
+    /// of M without M, and for particles in contact with zero reaction and curved obstacles, which
+    /// are not treated.
     pub fn with_radii(mut self, radii: Radii) -> Result<Self, ModelError> {
         self.radii = radii.establish(self.dofs(), self.mass.is_some())?;
         if !self.is_exact() {
             self.require_no_zero()?;
+            self.require_flat()?;
         }
 
         Ok(self)
@@ -255,8 +287,8 @@ impl System {
     /// The same body with other contact states, without reactions, and this mu.
     ///
     /// # Errors
-    /// [`ModelError`] for a number of states other than that of particles, and as [`System::new`]:
-    /// other dofs are free.
+    /// [`ModelError`] for a number of states other than that of particles, for curved obstacles,
+    /// whose reactions belong to the states given, and as [`System::new`]: other dofs are free.
     pub fn with_states(
         &self,
         states: &[ContactState],
@@ -273,6 +305,7 @@ impl System {
             });
         }
 
+        self.require_flat()?;
         let mut particles = self.particles.clone();
         for (particle, &state) in particles.iter_mut().zip(states) {
             particle.state = state;
@@ -288,14 +321,19 @@ impl System {
         system.with_radii(self.radii.clone())
     }
 
-    /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2.
+    /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2, flat obstacles for
+    /// mu, in which K* is quadratic on curved ones.
     ///
     /// # Errors
-    /// [`ModelError::Missing`], or [`ModelError::NothingSlips`] for a system without solutions.
+    /// [`ModelError::Missing`], [`ModelError::Curved`], or [`ModelError::NothingSlips`] for a system
+    /// without solutions.
     pub fn require_for(&self, unknown: Unknown) -> Result<(), ModelError> {
         let is_dynamic = match unknown {
             Unknown::Lambda2 => true,
-            Unknown::Mu => false,
+            Unknown::Mu => {
+                self.require_flat()?;
+                false
+            }
             Unknown::Eigenvalue => {
                 let got = "a body".into();
                 return Err(ModelError::Eigenvalue { got });
@@ -445,6 +483,23 @@ impl System {
         }
     }
 
+    /// Refuses a system on curved obstacles, for what does not treat them.
+    ///
+    /// # Errors
+    /// [`ModelError::Curved`] naming the first particle whose reaction turns.
+    pub fn require_flat(&self) -> Result<(), ModelError> {
+        match self.curved_particle() {
+            Some(particle) => Err(ModelError::Curved { particle }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first particle whose reaction turns along a curved obstacle.
+    pub fn curved_particle(&self) -> Option<usize> {
+        let turns = |particle: &Particle| !particle.geometric_stiffness().is_zero();
+        self.particles.iter().position(turns)
+    }
+
     /// f: the dofs of no particle in contact, ascending.
     pub fn free_dofs(&self) -> Vec<usize> {
         self.dofs_outside(|state| state == ContactState::Free)
@@ -528,6 +583,7 @@ fn check_particles(
         check_friction_factor(index, particle)?;
         check_friction_range(index, particle)?;
         check_reaction(index, particle, friction)?;
+        check_curvature(index, particle)?;
     }
 
     Ok(())
@@ -605,6 +661,39 @@ fn check_reaction(
         tangential: reaction.tangential.clone(),
         normal: reaction.normal.clone(),
     })
+}
+
+/// A curvature belongs to a particle that slips, and its r_N is that of the reaction.
+fn check_curvature(index: usize, particle: &Particle) -> Result<(), ModelError> {
+    let Some(curvature) = &particle.curvature else {
+        return Ok(());
+    };
+
+    let refused = |expected, got| ModelError::Curvature {
+        particle: index,
+        expected,
+        got,
+    };
+    if !matches!(particle.state, ContactState::Slip { .. }) {
+        let got = format!("one in state {}", particle.state.word());
+        return Err(refused("a curvature in state slip alone", got));
+    }
+
+    let normal_reaction = &curvature.normal_reaction;
+    if !normal_reaction.is_negative() {
+        return Err(refused("normal_reaction < 0", normal_reaction.to_string()));
+    }
+
+    match &particle.reaction {
+        Some(reaction) if reaction.normal != *normal_reaction => {
+            let got = format!("{normal_reaction} and {}", reaction.normal);
+            Err(refused(
+                "one normal reaction in curvature and in reaction",
+                got,
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The first condition on a reaction that does not hold; `friction` is that of the particle. Those

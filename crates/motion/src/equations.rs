@@ -110,12 +110,13 @@ impl Equations {
     /// The equations of a system.
     ///
     /// # Errors
-    /// [`MotionError::Model`] without mass, friction coefficient or slip particle, or with a
-    /// particle in contact with zero reaction; [`MotionError::Doubles`] where entries leave their
+    /// [`MotionError::Model`] without mass, friction coefficient or slip particle, with a particle
+    /// in contact with zero reaction, or with a curved obstacle; [`MotionError::Doubles`] where entries leave their
     /// range.
     pub fn new(system: &System) -> Result<Equations, MotionError> {
         system.require_for(Unknown::Lambda2)?;
         system.require_no_zero()?;
+        system.require_flat()?;
         let mass = required("mass", system.mass())?;
         let friction = to_f64(required("friction", system.friction())?);
         let free = system.free_dofs();

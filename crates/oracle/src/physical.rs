@@ -9,7 +9,8 @@
 //! reaction (z), which section 3 of the paper leaves out, are treated as well.
 //!
 //! Each particle is in one of three *modes*. With its unit tangent, its unit normal into the
-//! obstacle, and cone(S) = S w_T + mu w_N:
+//! obstacle, and cone(S) = S w_T + mu w_N (on a curved obstacle, `spec/curvature.md`, with the rates
+//! w_T + phi r_N and w_N - phi r_T of the reaction in the directions that turn by phi = kappa v_T):
 //!
 //! | mode | equations |
 //! |---|---|
@@ -65,6 +66,8 @@ pub struct PhysicalParticle {
     pub normal: Direction,
     /// Its coefficient of friction over mu.
     pub friction_factor: Rational,
+    /// The curvature of the obstacle times the normal reaction at equilibrium, where it slips.
+    pub geometric_stiffness: Rational,
     /// The state.
     pub state: PhysicalState,
 }
@@ -102,6 +105,10 @@ impl PhysicalSystem {
                 tangent: particle.tangent(),
                 normal: particle.into_obstacle(),
                 friction_factor: particle.friction_factor.clone(),
+                geometric_stiffness: match &particle.curvature {
+                    Some(curvature) => &curvature.value * &curvature.normal_reaction,
+                    None => Rational::zero(),
+                },
                 state,
             });
         }
@@ -313,11 +320,25 @@ impl Form {
         let mut form = tangential.times(&sign);
         if system.mass.is_some() {
             form.add(&normal.times(&system.friction));
+            form.add(&Form::turned(system, particle, &sign));
         } else {
             form.slope = normal.constant;
         }
 
         form
+    }
+
+    /// What cone(S) has more in the directions that turn with a curved obstacle:
+    /// S phi r_N - c mu phi r_T, where phi r_N = kappa r_N v_T and r_T = -S c mu r_N.
+    fn turned(system: &PhysicalSystem, particle: &PhysicalParticle, sign: &Rational) -> Form {
+        let n = system.stiffness.rows();
+        let phi_r_n = Form::motion(n, &particle.tangent).times(&particle.geometric_stiffness);
+        let own_friction = &system.friction * &particle.friction_factor;
+        let phi_r_t = phi_r_n.times(&-(sign * &own_friction));
+
+        let mut sum = phi_r_n.times(sign);
+        sum.add(&phi_r_t.times(&-own_friction));
+        sum
     }
 
     fn times(&self, factor: &Rational) -> Form {

@@ -14,10 +14,12 @@
 //!   tangential and the normal dof;
 //! * `friction_factor`: the friction of this particle over mu, > 0; 1 by default;
 //! * `reaction_tangential`, `reaction_normal`: the reaction on the body along these dofs, as the
-//!   finite-element program gives it.
+//!   finite-element program gives it;
+//! * `curvature`: of the obstacle, 1 / R on a cylinder of radius R, positive where it is convex. It
+//!   counts where a particle slips, with its reaction (`spec/curvature.md`).
 //!
-//! Of contact candidates under loads ([`read_candidates`]) states and reactions are not known:
-//! there are no such columns, and `gap` may hold the distance from the obstacle in the unloaded
+//! Of contact candidates under loads ([`read_candidates`]) states and reactions are not known, and
+//! obstacles are flat: there are no such columns, and `gap` may hold the distance from the obstacle in the unloaded
 //! body.
 //!
 //! Lines that begin with # are comments; a cell may be empty where it is optional.
@@ -32,7 +34,7 @@ use crate::rotation::{Frame, rotation_along, rotation_by_degrees};
 use crate::table::ColumnPlaces;
 use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational, to_f64, whole};
-use mceip_model::{ContactCandidate, ContactState, Particle, Reaction};
+use mceip_model::{ContactCandidate, ContactState, Curvature, Particle, Reaction};
 use num_traits::{One, Signed, Zero};
 use std::fmt::{self, Display, Formatter};
 
@@ -141,6 +143,15 @@ pub enum ContactsError {
         /// Reaction along the normal into the obstacle.
         normal: String,
     },
+    /// A particle slips along a curved obstacle, and its reaction is not given.
+    #[error(
+        "{place}: expected reaction_tangential and reaction_normal beside the curvature of a \
+         particle that slips, for its reaction turns with the obstacle; got none"
+    )]
+    CurvatureWithoutReaction {
+        /// Where the curvature stands.
+        place: ReactionPlace,
+    },
     /// No particle.
     #[error("contacts: expected at least one particle, got none")]
     Empty,
@@ -168,12 +179,13 @@ enum Column {
     FrictionFactor,
     ReactionTangential,
     ReactionNormal,
+    Curvature,
     Gap,
 }
 
 impl Column {
     /// Every column, in the order of the variants.
-    const ALL: [Column; 12] = [
+    const ALL: [Column; 13] = [
         Column::Particle,
         Column::Tangential,
         Column::Normal,
@@ -185,6 +197,7 @@ impl Column {
         Column::FrictionFactor,
         Column::ReactionTangential,
         Column::ReactionNormal,
+        Column::Curvature,
         Column::Gap,
     ];
 
@@ -201,6 +214,7 @@ impl Column {
             Column::FrictionFactor => "friction_factor",
             Column::ReactionTangential => "reaction_tangential",
             Column::ReactionNormal => "reaction_normal",
+            Column::Curvature => "curvature",
             Column::Gap => "gap",
         }
     }
@@ -318,13 +332,14 @@ const CANDIDATES: Columns = Columns {
         Column::State,
         Column::ReactionTangential,
         Column::ReactionNormal,
+        Column::Curvature,
     ],
-    why: "with --loads the states and reactions follow from the loads",
+    why: "with --loads the states and reactions follow from the loads, and obstacles are flat",
 };
 
 /// Where the columns stand, in the order of [`Column::ALL`]; refuses a header without those needed
 /// and one with those of another kind of table.
-fn places_of(header: &str, columns: &Columns) -> Result<ColumnPlaces<12>, ContactsError> {
+fn places_of(header: &str, columns: &Columns) -> Result<ColumnPlaces<13>, ContactsError> {
     if !header.contains(',')
         && let Some(got) = header.chars().find(|c| matches!(c, ';' | '\t'))
     {
@@ -367,11 +382,11 @@ struct ContactRow<'a> {
     /// Line of the file, from 1.
     line: usize,
     /// What stands in each column, in the order of [`Column::ALL`].
-    cells: [&'a str; 12],
+    cells: [&'a str; 13],
 }
 
 impl<'a> ContactRow<'a> {
-    fn cut(line: &TextLine<'a>, places: &ColumnPlaces<12>) -> Result<Self, ContactsError> {
+    fn cut(line: &TextLine<'a>, places: &ColumnPlaces<13>) -> Result<Self, ContactsError> {
         let cells = places
             .cells(line.text)
             .map_err(|got| ContactsError::Cells {
@@ -393,12 +408,15 @@ impl<'a> ContactRow<'a> {
         dof: &dyn Fn(&str) -> Option<usize>,
     ) -> Result<(Particle, Option<TableReaction>), ContactsError> {
         let state = self.state()?;
-        let particle = self.without_reaction(state, dof)?;
-        let Some(along_dofs) = self.reaction()? else {
+        let place = ReactionPlace::Line(self.line);
+        let along_dofs = self.reaction()?;
+        let curvature = self.number(Column::Curvature)?.unwrap_or_default();
+        let flat = self.without_reaction(state, dof)?;
+        let particle = with_curvature(flat, curvature, along_dofs.as_ref(), place)?;
+        let Some(along_dofs) = along_dofs else {
             return Ok((particle, None));
         };
 
-        let place = ReactionPlace::Line(self.line);
         let (particle, reaction) = with_reaction(particle, along_dofs, friction, place)?;
         Ok((particle, Some(reaction)))
     }
@@ -602,6 +620,33 @@ pub fn with_reaction(
         ..particle
     };
     Ok((particle, reaction))
+}
+
+/// The particle on an obstacle of this curvature, which counts where it slips: there its reaction
+/// on the body along its tangential and its normal dof is needed.
+///
+/// # Errors
+/// [`ContactsError::CurvatureWithoutReaction`]; `place` is named in it.
+pub fn with_curvature(
+    particle: Particle,
+    curvature: Rational,
+    along_dofs: Option<&[Rational; 2]>,
+    place: ReactionPlace,
+) -> Result<Particle, ContactsError> {
+    let slips = matches!(particle.state, ContactState::Slip { .. });
+    if !slips || curvature.is_zero() {
+        return Ok(particle);
+    }
+
+    let along_dofs = along_dofs.ok_or(ContactsError::CurvatureWithoutReaction { place })?;
+    let curvature = Curvature {
+        value: curvature,
+        normal_reaction: GivenReaction::at(&particle, along_dofs).normal,
+    };
+    Ok(Particle {
+        curvature: Some(curvature),
+        ..particle
+    })
 }
 
 /// A reaction on the body along the tangent and the normal into the obstacle.

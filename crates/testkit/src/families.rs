@@ -28,6 +28,7 @@ worded! {
     OneByOne "one variable" "One variable.",
     FreeVariables "free variables" "Free variables present.",
     Oblique "oblique particle" "An oblique particle.",
+    Curved "curved obstacle" "A particle that slips on a curved obstacle.",
     Stick "stick particle" "A stick particle.",
     CoupledMass "mass that couples T and N" "A mass matrix that couples T and N: M1 does not \
                                              vanish.",

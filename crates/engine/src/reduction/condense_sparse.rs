@@ -220,6 +220,11 @@ impl SparseCondensation {
         particles: &[Particle],
         points: Option<&[[f64; 2]]>,
     ) -> Result<SparseCondensation, CondensationError> {
+        let is_curved = |particle: &Particle| particle.curvature.is_some();
+        if let Some(particle) = particles.iter().position(is_curved) {
+            return Err(CondensationError::Curved { particle });
+        }
+
         let dofs = stiffness.order();
         if let Some(m) = &mass
             && m.order() != dofs

@@ -7,7 +7,7 @@
 use super::matrix::{RawMatrix, RawRadius};
 use super::{Number, Object, SystemFile, Word};
 use crate::{
-    Body, BodyNode, ContactState, Coordinates, LoadedBody, ModelError, Particle, Pencil,
+    Body, BodyNode, ContactState, Coordinates, Curvature, LoadedBody, ModelError, Particle, Pencil,
     PrescribedDisplacement, Problem, Radii, Reaction, RealWindow, System, Unknown, Window,
 };
 use mceip_exact::{Rational, Sparse, whole};
@@ -92,6 +92,7 @@ pub(super) struct RawParticle {
     friction_factor: Option<Number>,
     friction_factor_range: Option<[Number; 2]>,
     reaction: Option<Object<RawReaction>>,
+    curvature: Option<Object<RawCurvature>>,
     name: Option<String>,
 }
 
@@ -109,6 +110,13 @@ enum RawState {
 struct RawReaction {
     normal: Number,
     tangential: Number,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCurvature {
+    value: Number,
+    normal_reaction: Number,
 }
 
 impl RawProblem {
@@ -370,6 +378,7 @@ impl RawParticle {
             friction_factor: None,
             friction_factor_range: None,
             reaction: None,
+            curvature: None,
             name: None,
         }
     }
@@ -415,6 +424,11 @@ impl RawParticle {
             normal: reaction.normal.0,
         });
 
+        let curvature = self.curvature.map(|Object(curvature)| Curvature {
+            value: curvature.value.0,
+            normal_reaction: curvature.normal_reaction.0,
+        });
+
         let normal_direction = match self.normal_direction {
             Some(direction) => sign(index, "normal_direction", direction)?,
             None => 1,
@@ -431,6 +445,7 @@ impl RawParticle {
                 .friction_factor_range
                 .map(|ends| ends.map(|number| number.0)),
             reaction,
+            curvature,
             name: self.name.filter(|name| !name.is_empty()), // an empty one is none
         })
     }

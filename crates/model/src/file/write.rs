@@ -240,6 +240,13 @@ fn write_particle(particle: &Particle) -> Value {
         });
         out.insert("reaction".into(), numbers);
     }
+    if let Some(curvature) = &particle.curvature {
+        let numbers = json!({
+            "value": curvature.value.to_string(),
+            "normal_reaction": curvature.normal_reaction.to_string(),
+        });
+        out.insert("curvature".into(), numbers);
+    }
 
     Value::Object(out)
 }

@@ -22,7 +22,8 @@
 //! ```
 //!
 //! without z, and M0 and M1 likewise. MCEIP-mu is the pencil K0 + mu K1; MCEIP-lambda2 is
-//! K* + lambda^2 M* with K* = K0 + mu K1 and M* = M0 + mu M1.
+//! K* + lambda^2 M* with K* = K0 + mu K1 and M* = M0 + mu M1. On curved obstacles K* has a diagonal
+//! that is quadratic in mu as well (`spec/curvature.md`), and MCEIP-mu is refused.
 //!
 //! With z this is the split form of `spec/zero-reaction.md`, Z.3. It has solutions x != 0 with
 //! v = 0, namely v+ = v- for any z particle and any t. A solution of (9) is a solution of the form
@@ -38,7 +39,7 @@ use crate::{
     ReducedVariable, System, Unknown, ZeroPart, ZeroVariables,
 };
 use mceip_exact::{Rational, Sparse};
-use num_traits::Signed as _;
+use num_traits::{One as _, Signed as _};
 
 /// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
 ///
@@ -59,7 +60,8 @@ pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
 ///
 /// # Errors
 /// [`ModelError::Missing`] if the system lacks what the unknown needs,
-/// [`ModelError::NothingSlips`], or [`ModelError::NotExact`].
+/// [`ModelError::NothingSlips`], [`ModelError::NotExact`], or [`ModelError::Curved`] with mu as the
+/// unknown.
 pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
     system.require_exact()?;
     system.require_for(unknown)?;
@@ -70,7 +72,9 @@ pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, Model
         // (12), (15)
         (Unknown::Lambda2, Some(mass), Some(mu)) => {
             let mass = changes.blocks(mass);
-            (stiffness.at(mu), mass.at(mu))
+            let turning = turning(system, mu);
+            let k_star = stiffness.at(mu).add_scaled(&Rational::one(), &turning);
+            (k_star, mass.at(mu))
         }
         // (21); require_for has refused lambda2 without M and mu.
         _ => (stiffness.constant, stiffness.slope),
@@ -83,10 +87,25 @@ pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, Model
     })
 }
 
+/// The diagonal (1 + c^2 mu^2) g of reactions that turn along curved obstacles
+/// (`spec/curvature.md`).
+fn turning(system: &System, mu: &Rational) -> Sparse {
+    let free = system.free_dofs().len();
+    let slip = system.slip_particles();
+    let order = free + slip.len() + 3 * system.zero_particles().len();
+
+    let mut entries = Vec::new();
+    for (k, (particle, _)) in slip.iter().enumerate() {
+        entries.push((free + k, free + k, particle.turning_stiffness(mu)));
+    }
+
+    Sparse::from_entries(order, order, entries)
+}
+
 /// (K0, K1) and (M0, M1) of (16).
 ///
 /// # Errors
-/// [`ModelError::NothingSlips`], [`ModelError::NotExact`].
+/// [`ModelError::NothingSlips`], [`ModelError::NotExact`], [`ModelError::Curved`].
 pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
     system.require_exact()?;
     system.require_for(Unknown::Mu)?;

@@ -5,9 +5,12 @@
 //! | all | v != 0 |
 //! | f | w_f = 0 |
 //! | d (stick) | v_d = 0 |
-//! | s (slip) | v_N = 0, S v_T <= 0, S w_T + mu w_N <= 0, and the product of the last two is 0 |
+//! | s (slip) | v_N = 0, S v_T <= 0, cone <= 0, and the product of the last two is 0 |
 //! | z (zero reaction) | v_N <= 0, w_N <= 0, v_N w_N = 0, abs(w_T) + mu w_N <= 0 |
 //! | z that slides | w_T = mu sign(v_T) w_N |
+//!
+//! with cone = S w_T + mu w_N, and (1 + mu^2) g S v_T more on a curved obstacle
+//! (`spec/curvature.md`).
 //!
 //! Each side is a polynomial in t up to a positive factor; its sign at t decides the line. The
 //! first line of (9), (t M + K) v = w, holds by construction of [`super::lift`].
@@ -17,7 +20,7 @@
 use super::Lifted;
 use crate::{ContactState, Direction, Particle, System, Unknown};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, cleared, common_denominator};
-use num_traits::One;
+use num_traits::{One, Zero};
 
 /// The lines of (9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,7 +112,7 @@ pub fn check_lines(
                 let sides = SlipSides {
                     v_n: positive_multiple(&particle.into_obstacle(), &Rational::one(), &lifted.v),
                     s_v_t: positive_multiple(&particle.tangent(), &s, &lifted.v),
-                    cone: cone_side(particle, &s, &friction(system, unknown), &lifted.w),
+                    cone: cone_side(particle, &s, &friction(system, unknown), lifted),
                 };
                 sides.check(place, value)?;
             }
@@ -142,7 +145,7 @@ struct SlipSides {
     v_n: Poly,
     /// S v_T.
     s_v_t: Poly,
-    /// S w_T + mu w_N.
+    /// S w_T + mu w_N + (1 + mu^2) g S v_T.
     cone: Poly,
 }
 
@@ -186,8 +189,8 @@ impl ZeroSides {
             v_t: positive_multiple(&particle.tangent(), &one, &lifted.v),
             v_n: positive_multiple(&particle.into_obstacle(), &one, &lifted.v),
             w_n: positive_multiple(&particle.into_obstacle(), &one, &lifted.w),
-            cone_plus: cone_side(particle, &one, friction, &lifted.w),
-            cone_minus: cone_side(particle, &-one, friction, &lifted.w),
+            cone_plus: cone_side(particle, &one, friction, lifted),
+            cone_minus: cone_side(particle, &-one, friction, lifted),
         }
     }
 
@@ -241,22 +244,26 @@ fn require(holds: bool, line: Line, place: LineSubject, got: Sign) -> Result<(),
     })
 }
 
-/// A positive multiple of S t'w + mu n'w.
-fn cone_side(particle: &Particle, s: &Rational, friction: &FrictionTerm, w: &[Poly]) -> Poly {
-    let (mu, power) = match friction {
-        FrictionTerm::Given(mu) => (mu.clone(), 0),
-        FrictionTerm::IsUnknown => (Rational::one(), 1),
+/// A positive multiple of S t'w + mu n'w + (1 + mu^2) g S t'v.
+fn cone_side(particle: &Particle, s: &Rational, friction: &FrictionTerm, lifted: &Lifted) -> Poly {
+    let (mu, power, turning) = match friction {
+        FrictionTerm::Given(mu) => (mu.clone(), 0, particle.turning_stiffness(mu)),
+        // `System::require_for` refuses curved obstacles where mu is the unknown.
+        FrictionTerm::IsUnknown => (Rational::one(), 1, Rational::zero()),
     };
 
     let tangential = times(&particle.tangent(), s);
     let normal = times(&particle.friction_direction(), &mu);
+    let v_in_units_of_w = Rational::new(lifted.w_scale.clone(), lifted.v_scale.clone());
+    let turned = times(&tangential, &(turning * v_in_units_of_w));
 
-    let coefficients = tangential.iter().chain(&normal).map(|(_, c)| c);
-    let clear = common_denominator(coefficients);
-    let w_t = integral_inner_product(&tangential, &clear, w);
-    let w_n = integral_inner_product(&normal, &clear, w);
+    let coefficients = tangential.iter().chain(&normal).chain(&turned);
+    let clear = common_denominator(coefficients.map(|(_, c)| c));
+    let w_t = integral_inner_product(&tangential, &clear, &lifted.w);
+    let w_n = integral_inner_product(&normal, &clear, &lifted.w);
+    let of_turning = integral_inner_product(&turned, &clear, &lifted.v);
 
-    &w_t + &w_n.shift(power)
+    &(&w_t + &w_n.shift(power)) + &of_turning
 }
 
 /// A positive multiple of factor * d'p.

@@ -66,10 +66,15 @@ pub(super) fn elements(seed: &Seed) -> Result<Made> {
 
 pub(super) fn states(seed: &Seed) -> Result<Made> {
     let mut corners = Vec::new();
+    let mut rng = seed.rng();
+    let unknown = unknown(seed.index);
     let mixture = mixtures::mixture(seed.index / 2);
-    let system = mixtures::system(&mut seed.rng(), &mixture, &mut corners)?;
+    let mut system = mixtures::system(&mut rng, &mixture, &mut corners)?;
+    if unknown == Unknown::Lambda2 && rng.random_range(0..2) == 0 {
+        system = mixtures::on_curved_obstacles(&mut rng, &system, &mut corners)?;
+    }
 
-    let problem = Problem::new(Body::System(system), unknown(seed.index), Window::all())?;
+    let problem = Problem::new(Body::System(system), unknown, Window::all())?;
     Ok(Made::new(problem, corners))
 }
 

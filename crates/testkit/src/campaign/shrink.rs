@@ -285,6 +285,7 @@ fn smaller_systems(system: &System) -> Tried<System> {
         out.push(with_particle(system, k, |p| p.frame = None));
         out.push(with_particle(system, k, |p| p.normal_direction = 1));
         out.push(with_particle(system, k, |p| p.reaction = None));
+        out.push(with_particle(system, k, |p| p.curvature = None));
     }
 
     for mu in system.friction().into_iter().flat_map(simpler) {

@@ -7,7 +7,7 @@
 use super::{gram, random_order, sparse};
 use crate::families::Corner;
 use mceip_exact::{Rational, Sparse, rational, whole};
-use mceip_model::{ContactState, ModelError, Particle, Reduced, System};
+use mceip_model::{ContactState, Curvature, ModelError, Particle, Reduced, System};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::ops::RangeInclusive;
@@ -172,6 +172,35 @@ pub(crate) fn of_particles(
     let friction = rational(rng.random_range(quarters), 4);
     let stiffness = sparse(&gram(rng, n, 1));
     System::new(stiffness, Some(mass), Some(friction), particles)
+}
+
+/// The system with curved obstacles: of four particles that slip two are on a convex one, one on a
+/// hollow one and one on a flat one, on average.
+///
+/// # Errors
+/// [`ModelError`]; none.
+pub fn on_curved_obstacles(
+    rng: &mut ChaCha8Rng,
+    system: &System,
+    corners: &mut Vec<Corner>,
+) -> Result<System, ModelError> {
+    let mut particles = system.particles().to_vec();
+    for particle in particles.iter_mut().filter(|p| is_slip(&p.state)) {
+        let side = match rng.random_range(0..4) {
+            0 => continue,
+            1 => -1,
+            _ => 1,
+        };
+        particle.curvature = Some(Curvature {
+            value: rational(side * rng.random_range(1..=12), 4),
+            normal_reaction: rational(-rng.random_range(1..=24), 3),
+        });
+        corners.push(Corner::Curved);
+    }
+
+    let stiffness = system.stiffness().clone();
+    let friction = system.friction().cloned();
+    System::new(stiffness, system.mass().cloned(), friction, particles)
 }
 
 /// The particle with a random normal direction and, one time in three, a rotated frame.

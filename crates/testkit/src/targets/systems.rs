@@ -17,7 +17,7 @@ use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
 use mceip_model::{
-    Body, ContactState, Particle, Pencil, Problem, Reduced, System, Unknown, Window,
+    Body, ContactState, Curvature, Particle, Pencil, Problem, Reduced, System, Unknown, Window,
 };
 use mceip_oracle::TwoParticles;
 use mceip_paper::two_particles;
@@ -160,6 +160,12 @@ fn system_problem(data: &[u8]) -> Option<Problem> {
         Sparse::zeros(n, n).add_scaled(&bytes.positive(), &Sparse::identity(n))
     };
 
+    let particles = particles.into_iter();
+    let particles: Vec<Particle> = match unknown {
+        Unknown::Lambda2 => particles.map(|p| on_an_obstacle(&mut bytes, p)).collect(),
+        Unknown::Mu | Unknown::Eigenvalue => particles.collect(),
+    };
+
     let system = System::new(stiffness, Some(mass), Some(friction), particles).ok()?;
     Problem::new(Body::System(system), unknown, Window::all()).ok()
 }
@@ -194,6 +200,21 @@ fn particle(bytes: &mut Bytes<'_>, index: usize, order: &[usize]) -> Particle {
         particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
     }
 
+    particle
+}
+
+/// The particle on an obstacle of curvature 0 to 31/4, or -1/4 to -8; where the bytes have ended it
+/// is flat.
+fn on_an_obstacle(bytes: &mut Bytes<'_>, mut particle: Particle) -> Particle {
+    let curvature = bytes.next();
+    if curvature == 0 || !matches!(particle.state, ContactState::Slip { .. }) {
+        return particle;
+    }
+
+    particle.curvature = Some(Curvature {
+        value: rational(i64::from(curvature.cast_signed()) / 4, 4),
+        normal_reaction: -bytes.positive(),
+    });
     particle
 }
 
@@ -294,18 +315,37 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
     let k_friction = products(system.stiffness(), &normal, &motion);
     let friction = system.friction().cloned().unwrap_or_default();
 
-    let free = (0..free).collect();
+    let free_variables = (0..free).collect();
     let pencil = match (unknown, system.mass()) {
         (Unknown::Lambda2, Some(mass)) => {
             let m_plain = products(mass, &motion, &motion);
             let m_friction = products(mass, &normal, &motion);
-            let a = k_plain.add_scaled(&friction, &k_friction);
+            let mut a = k_plain.add_scaled(&friction, &k_friction);
+            for (k, (particle, _)) in system.slip_particles().into_iter().enumerate() {
+                let turning = turning(particle, &friction);
+                let here =
+                    Sparse::from_entries(a.rows(), a.rows(), [(free + k, free + k, turning)]);
+                a = a.add_scaled(&Rational::one(), &here);
+            }
             let b = m_plain.add_scaled(&friction, &m_friction);
-            Pencil::new(a, b, free)
+            Pencil::new(a, b, free_variables)
         }
-        _ => Pencil::new(k_plain, k_friction, free),
+        _ => Pencil::new(k_plain, k_friction, free_variables),
     };
     pencil.unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
+}
+
+/// What a reaction that turns by kappa v_T along a curved obstacle adds to y = -(S w_T + c mu w_N) of
+/// x = -S v_T: kappa (r_N - S c mu r_T) with r_T = -S c mu r_N.
+fn turning(particle: &Particle, friction: &Rational) -> Rational {
+    let Some(curvature) = &particle.curvature else {
+        return Rational::zero();
+    };
+
+    let own_friction = friction * &particle.friction_factor;
+    let normal = &curvature.normal_reaction;
+    let tangential_against_slip = &own_friction * normal; // -S r_T
+    &curvature.value * (normal + own_friction * tangential_against_slip)
 }
 
 /// The two directions of a particle, written out from its frame.
