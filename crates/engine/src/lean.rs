@@ -33,10 +33,10 @@ use mceip_check::certificate::{
     IntegerMatrix, PRESENCE_FORMAT, PresenceCertificate,
 };
 use mceip_exact::{Rational, to_f64};
-use mceip_model::file::{from_json, from_json_with_unique_keys, require_format};
+use mceip_model::file::{from_json, from_json_of_with_unique_keys, require_format, to_json_of};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 /// The format of lean certificates.
@@ -217,10 +217,7 @@ fn matrices_over_friction(anchor: &mut CriticalAnchor) -> AnchorMatrices<'_> {
 /// # Errors
 /// [`LeanError`]: no file of this format, or one of a kind without anchors.
 pub fn skeleton(text: &str) -> Result<String, LeanError> {
-    require_format(text, LEAN_FORMAT)?;
-    let LeanFile {
-        mut certificate, ..
-    } = from_json_with_unique_keys(text)?;
+    let LeanFile { mut certificate } = from_json_of_with_unique_keys(LEAN_FORMAT, text)?;
     for matrix in matrices_of(&mut certificate) {
         matrix.entry("rows").or_insert_with(|| json!([]));
     }
@@ -280,13 +277,15 @@ pub fn shorten<C: HasAnchors>(
         return Ok(None);
     }
 
-    let mut without_rows: Value = from_json(&certificate.text())?;
-    for matrix in matrices_of(&mut without_rows) {
+    let mut lean = LeanFile {
+        certificate: from_json(&certificate.text())?,
+    };
+    for matrix in matrices_of(&mut lean.certificate) {
         if matrix["rows"] == json!([]) {
             matrix.remove("rows");
         }
     }
-    let file = json!({ "format": LEAN_FORMAT, "certificate": without_rows }).to_string();
+    let file = to_json_of(LEAN_FORMAT, &lean);
 
     // What is made of the file is the certificate that was given: nothing got lost on the way.
     if C::read(&skeleton(&file)?)? != certificate {
@@ -295,11 +294,9 @@ pub fn shorten<C: HasAnchors>(
     Ok(Some(file))
 }
 
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LeanFile {
-    #[serde(rename = "format")]
-    _format: String,
     certificate: Value,
 }
 

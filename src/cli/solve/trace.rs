@@ -8,7 +8,7 @@ use crate::{Found, Problem};
 use mceip_engine::lcp;
 use mceip_engine::multistart::{self, MAX_STARTS, Search, SearchError};
 use mceip_engine::run::Watch;
-use mceip_model::file::{from_json, read_problem, require_format};
+use mceip_model::file::{from_json_of, read_problem, require_format, to_json_of};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -19,7 +19,6 @@ const TRACE_FORMAT: &str = "mceip-trace/1";
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Header {
-    format: String,
     version: String,
     starts: usize,
     seed: u64,
@@ -34,7 +33,6 @@ impl Header {
     /// Of an eigenproblem.
     fn new(problem: &Problem, search: &Search, all: bool) -> Header {
         Header {
-            format: TRACE_FORMAT.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             starts: search.starts,
             seed: search.seed,
@@ -47,7 +45,6 @@ impl Header {
     /// Of a plain problem.
     pub(super) fn plain(problem: &lcp::ExactMcp, search: &lcp::PlainSearch) -> Header {
         Header {
-            format: TRACE_FORMAT.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             starts: search.starts,
             seed: search.seed,
@@ -73,9 +70,7 @@ fn in_old_words(again: Header, recorded: &Header) -> Header {
 
 /// The header as the first line of a trace.
 fn first_line(header: &Header) -> String {
-    // Serialising strings and numbers cannot fail.
-    let head = serde_json::to_string(header).unwrap_or_default();
-    format!("{head}\n")
+    to_json_of(TRACE_FORMAT, header) + "\n"
 }
 
 /// The whole trace of a search.
@@ -152,8 +147,8 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
 
 fn read_header(recorded: &str, path: &Path) -> Result<Header, CliError> {
     let head = recorded.lines().next().unwrap_or_default();
-    require_format(head, TRACE_FORMAT).map_err(|e| CliError::file(path, e))?;
-    let header: Header = from_json(head).map_err(|e| CliError::file(path, e))?;
+    let header = from_json_of(TRACE_FORMAT, head);
+    let header: Header = header.map_err(|e| CliError::file(path, e))?;
 
     if !(1..=MAX_STARTS).contains(&header.starts) {
         let expected = "a trace of 1 to 100000 starts";

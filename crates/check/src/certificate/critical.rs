@@ -19,10 +19,13 @@
 //! This module holds data and reads and writes it; it decides nothing. The checker is
 //! `crate::critical`, the normative text is `spec/certificates.md`, 5.18.
 
-use super::{Condensation, Factor, IntegerMatrix, Number, Piece, integer_rows, integers, object};
+use super::{
+    Condensation, Factor, IntegerMatrix, Number, Piece, integer_rows, integers, object, rational,
+    rational_or_zero,
+};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ModelError;
-use mceip_model::file::{from_json, require_format};
+use mceip_model::file::{from_json_of, to_json_of};
 use num_traits::Zero;
 use serde::{Deserialize, Serialize};
 
@@ -31,18 +34,28 @@ pub const CRITICAL_FORMAT: &str = "mceip-critical/1";
 
 /// The claim that there is no solution with mu in [`from`, `below`] and lambda^2 >= 0, and its
 /// proof.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CriticalCertificate {
     /// SHA-256 of the problem's canonical form.
     pub problem_sha256: String,
     /// Smallest friction of which absence is claimed; >= 0. A file without it means 0.
+    #[serde(
+        default,
+        with = "rational_or_zero",
+        skip_serializing_if = "Rational::is_zero"
+    )]
     pub from: Rational,
     /// Largest friction of which absence is claimed; > `from`.
+    #[serde(with = "rational")]
     pub below: Rational,
     /// How the free variables were eliminated; absent where there are none.
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub condensation: Option<CriticalCondensation>,
     /// Consecutive intervals of lambda^2 from 0 to infinity; the tree of each covers [`from`,
     /// `below`] as well.
+    #[serde(deserialize_with = "super::cover::pieces_over_friction")]
     pub pieces: Vec<Piece>,
 }
 
@@ -120,36 +133,10 @@ pub struct CriticalTail {
     pub mass_factor_below: Option<Factor>,
 }
 
-/// The file form of a [`CriticalCertificate`].
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CriticalFile {
-    format: String,
-    problem_sha256: String,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    from: Option<Number>,
-    below: Number,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    condensation: Option<CriticalCondensation>,
-    #[serde(deserialize_with = "super::cover::pieces_over_friction")]
-    pieces: Vec<Piece>,
-}
-
 impl CriticalCertificate {
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let file = CriticalFile {
-            format: CRITICAL_FORMAT.into(),
-            problem_sha256: self.problem_sha256.clone(),
-            from: (!self.from.is_zero()).then(|| Number(self.from.clone())),
-            below: Number(self.below.clone()),
-            condensation: self.condensation.clone(),
-            pieces: self.pieces.clone(),
-        };
-
-        // The file consists of strings, numbers and lists, so writing it cannot fail.
-        serde_json::to_string(&file).unwrap_or_default()
+        to_json_of(CRITICAL_FORMAT, self)
     }
 
     /// Reads a certificate.
@@ -158,15 +145,6 @@ impl CriticalCertificate {
     /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<CriticalCertificate, ModelError> {
-        require_format(text, CRITICAL_FORMAT)?;
-        let file: CriticalFile = from_json(text)?;
-
-        Ok(CriticalCertificate {
-            problem_sha256: file.problem_sha256,
-            from: file.from.map_or_else(Rational::zero, |from| from.0),
-            below: file.below.0,
-            condensation: file.condensation,
-            pieces: file.pieces,
-        })
+        from_json_of(CRITICAL_FORMAT, text)
     }
 }

@@ -10,7 +10,7 @@
 
 use super::{Claim, Number, object};
 use mceip_exact::Rational;
-use mceip_model::file::{from_json, require_format};
+use mceip_model::file::{from_json_of, to_json_of};
 use mceip_model::{ContactState, ModelError};
 use serde::{Deserialize, Serialize};
 
@@ -119,7 +119,6 @@ impl TryFrom<i8> for SlipSign {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EquilibriumFile {
-    format: String,
     loads_sha256: String,
     friction: Number,
     amounts: Vec<Number>,
@@ -137,7 +136,6 @@ impl EquilibriumCertificate {
             candidates,
         } = &self.stated;
         let file = EquilibriumFile {
-            format: EQUILIBRIUM_FORMAT.into(),
             loads_sha256: self.loads_sha256.clone(),
             friction: Number(friction.clone()),
             amounts: amounts.iter().cloned().map(Number).collect(),
@@ -145,8 +143,7 @@ impl EquilibriumCertificate {
             claim: self.claim.clone(),
         };
 
-        // The file consists of strings, numbers and lists, so writing it cannot fail.
-        serde_json::to_string(&file).unwrap_or_default()
+        to_json_of(EQUILIBRIUM_FORMAT, &file)
     }
 
     /// Reads a certificate.
@@ -155,8 +152,7 @@ impl EquilibriumCertificate {
     /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<EquilibriumCertificate, ModelError> {
-        require_format(text, EQUILIBRIUM_FORMAT)?;
-        let file: EquilibriumFile = from_json(text)?;
+        let file: EquilibriumFile = from_json_of(EQUILIBRIUM_FORMAT, text)?;
 
         Ok(EquilibriumCertificate {
             loads_sha256: file.loads_sha256,

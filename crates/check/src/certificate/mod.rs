@@ -11,8 +11,8 @@
 //! Numbers are read exactly as they are spelt. Unknown and duplicate fields are refused, so that no
 //! reader can pass over a part of a claim it does not understand.
 
-use mceip_exact::Integer;
-use mceip_model::file::{Number, from_json, require_format};
+use mceip_exact::{Integer, Rational};
+use mceip_model::file::{Number, from_json_of, to_json_of};
 use mceip_model::{ModelError, RealWindow, Unknown, Window};
 use serde::{Deserialize, Serialize};
 
@@ -41,31 +41,42 @@ pub use stability::{STABILITY_FORMAT, StabilityCertificate, StabilityCondensatio
 pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";
 
 /// Claims about one problem, bound to its matrices by digest.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Certificate {
     /// SHA-256 of the problem's canonical form.
     pub problem_sha256: String,
     /// The unknown of the problem.
+    #[serde(deserialize_with = "object::word")]
     pub unknown: Unknown,
     /// The window in which every claimed value lies.
+    #[serde(with = "window")]
     pub window: Window,
     /// Solutions claimed; may be empty beside a complete set.
     pub claims: Vec<Claim>,
     /// The claim that there are no other solutions in the window.
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub complete_set: Option<CompleteSet>,
     /// The same of the values below 0 of an eigenvalue problem.
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub negative: Option<Box<NegativeValues>>,
 }
 
 /// What is claimed of the values t < 0 of an eigenvalue problem: claims about the reflected pencil
 /// (A, -B), whose values are -t.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct NegativeValues {
     /// The window in which every claimed -t lies.
+    #[serde(with = "window")]
     pub window: Window,
     /// Solutions of the reflected pencil.
     pub claims: Vec<Claim>,
     /// The claim that it has no others in the window.
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub complete_set: Option<CompleteSet>,
 }
 
@@ -144,57 +155,6 @@ pub struct EnclosedSolution {
     pub exponent: u32,
 }
 
-/// The file form of a [`Certificate`].
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CertificateFile {
-    format: String,
-    problem_sha256: String,
-    #[serde(deserialize_with = "object::word")]
-    unknown: Unknown,
-    #[serde(deserialize_with = "object::one")]
-    window: FileWindow,
-    claims: Vec<Claim>,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    complete_set: Option<CompleteSet>,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    negative: Option<NegativeFile>,
-}
-
-/// The file form of [`NegativeValues`].
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NegativeFile {
-    #[serde(deserialize_with = "object::one")]
-    window: FileWindow,
-    claims: Vec<Claim>,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    complete_set: Option<CompleteSet>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FileWindow {
-    min: Number,
-    max: Option<Number>,
-}
-
-impl FileWindow {
-    fn of(window: &Window) -> FileWindow {
-        FileWindow {
-            min: Number(window.min().clone()),
-            max: window.max().cloned().map(Number),
-        }
-    }
-
-    fn read(self) -> Result<Window, ModelError> {
-        Window::new(self.min.0, self.max.map(|number| number.0))
-    }
-}
-
 impl Certificate {
     /// The windows of its complete sets or, without any, of its claims: two where values of both
     /// signs are spoken of and 0 does not join them.
@@ -249,24 +209,7 @@ impl Certificate {
 
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let negative = self.negative.as_ref().map(|negative| NegativeFile {
-            window: FileWindow::of(&negative.window),
-            claims: negative.claims.clone(),
-            complete_set: negative.complete_set.clone(),
-        });
-
-        let file = CertificateFile {
-            format: CERTIFICATE_FORMAT.into(),
-            problem_sha256: self.problem_sha256.clone(),
-            unknown: self.unknown,
-            window: FileWindow::of(&self.window),
-            claims: self.claims.clone(),
-            complete_set: self.complete_set.clone(),
-            negative,
-        };
-
-        // The file consists of strings, numbers and lists, so writing it cannot fail.
-        serde_json::to_string(&file).unwrap_or_default()
+        to_json_of(CERTIFICATE_FORMAT, self)
     }
 
     /// Reads a certificate.
@@ -276,30 +219,14 @@ impl Certificate {
     /// number that cannot be read, an empty window, values below 0 of another unknown than an
     /// eigenvalue.
     pub fn from_json(text: &str) -> Result<Certificate, ModelError> {
-        require_format(text, CERTIFICATE_FORMAT)?;
-        let file: CertificateFile = from_json(text)?;
-        if file.negative.is_some() && file.unknown != Unknown::Eigenvalue {
+        let read: Certificate = from_json_of(CERTIFICATE_FORMAT, text)?;
+        if read.negative.is_some() && read.unknown != Unknown::Eigenvalue {
             return Err(ModelError::NegativeValues {
-                unknown: file.unknown.word(),
+                unknown: read.unknown.word(),
             });
         }
-        let negative = match file.negative {
-            None => None,
-            Some(negative) => Some(Box::new(NegativeValues {
-                window: negative.window.read()?,
-                claims: negative.claims,
-                complete_set: negative.complete_set,
-            })),
-        };
 
-        Ok(Certificate {
-            problem_sha256: file.problem_sha256,
-            unknown: file.unknown,
-            window: file.window.read()?,
-            claims: file.claims,
-            complete_set: file.complete_set,
-            negative,
-        })
+        Ok(read)
     }
 }
 
@@ -338,6 +265,60 @@ mod object {
     ) -> Result<Option<Vec<T>>, D::Error> {
         let objects = Option::<Vec<Object<T>>>::deserialize(d)?;
         Ok(objects.map(|list| list.into_iter().map(|o| o.0).collect()))
+    }
+}
+
+/// A window in a file, which has a lower end.
+mod window {
+    use super::{Number, Window, object};
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct WindowEnds {
+        min: Number,
+        max: Option<Number>,
+    }
+
+    pub(super) fn serialize<S: Serializer>(window: &Window, s: S) -> Result<S::Ok, S::Error> {
+        let ends = WindowEnds {
+            min: Number(window.min().clone()),
+            max: window.max().cloned().map(Number),
+        };
+        ends.serialize(s)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Window, D::Error> {
+        let WindowEnds { min, max } = object::one(d)?;
+        Window::new(min.0, max.map(|number| number.0)).map_err(D::Error::custom)
+    }
+}
+
+/// A number of a file.
+mod rational {
+    use super::{Number, Rational};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(number: &Rational, s: S) -> Result<S::Ok, S::Error> {
+        Number(number.clone()).serialize(s)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Rational, D::Error> {
+        Ok(Number::deserialize(d)?.0)
+    }
+}
+
+/// An optional number of a file, 0 where it is null.
+mod rational_or_zero {
+    use super::{Number, Rational};
+    use serde::{Deserialize, Deserializer};
+
+    pub(super) use super::rational::serialize;
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Rational, D::Error> {
+        let number = Option::<Number>::deserialize(d)?;
+        Ok(number.map(|number| number.0).unwrap_or_default())
     }
 }
 

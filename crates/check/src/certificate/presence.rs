@@ -12,27 +12,35 @@
 //! This module holds data and reads and writes it; it decides nothing. The checker is
 //! `crate::presence`, the normative text is `spec/certificates.md`, 5.19.
 
-use super::{CriticalAnchor, CriticalCondensation, Factor, Number, integer_rows, integers, object};
+use super::{
+    CriticalAnchor, CriticalCondensation, Factor, Number, integer_rows, integers, object, rational,
+};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ModelError;
-use mceip_model::file::{from_json, require_format};
-use serde::{Deserialize, Serialize};
+use mceip_model::file::{from_json_of, to_json_of};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// The format of certified presence on an interval of friction.
 pub const PRESENCE_FORMAT: &str = "mceip-presence/1";
 
 /// The claim that there is a solution for every mu in [`from`, `to`], and its proof.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PresenceCertificate {
     /// SHA-256 of the problem's canonical form.
     pub problem_sha256: String,
     /// Smallest friction; >= 0.
+    #[serde(with = "rational")]
     pub from: Rational,
     /// Largest friction; > `from`.
+    #[serde(with = "rational")]
     pub to: Rational,
     /// How the free variables were eliminated, without a tail; absent where there are none.
+    #[serde(default, deserialize_with = "without_tail")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub condensation: Option<CriticalCondensation>,
     /// Consecutive intervals of mu.
+    #[serde(deserialize_with = "object::list")]
     pub pieces: Vec<PresencePiece>,
 }
 
@@ -71,7 +79,7 @@ pub struct PresencePiece {
 
 /// Elimination of the free variables as a file spells it: that of `mceip-critical/1` without a
 /// tail.
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WithoutTail {
     sigma: Number,
@@ -79,66 +87,27 @@ struct WithoutTail {
     stiffness_factor: Factor,
     mass_sigma: Number,
     #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
     mass_factor: Option<Factor>,
     #[serde(deserialize_with = "object::list")]
     anchors: Vec<CriticalAnchor>,
 }
 
-impl From<WithoutTail> for CriticalCondensation {
-    fn from(read: WithoutTail) -> CriticalCondensation {
-        CriticalCondensation {
-            sigma: read.sigma,
-            stiffness_factor: read.stiffness_factor,
-            mass_sigma: read.mass_sigma,
-            mass_factor: read.mass_factor,
-            anchors: read.anchors,
-            tail: None,
-        }
-    }
-}
-
-impl From<CriticalCondensation> for WithoutTail {
-    fn from(own: CriticalCondensation) -> WithoutTail {
-        WithoutTail {
-            sigma: own.sigma,
-            stiffness_factor: own.stiffness_factor,
-            mass_sigma: own.mass_sigma,
-            mass_factor: own.mass_factor,
-            anchors: own.anchors,
-        }
-    }
-}
-
-/// The file form of a [`PresenceCertificate`].
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PresenceFile {
-    format: String,
-    problem_sha256: String,
-    from: Number,
-    to: Number,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    condensation: Option<WithoutTail>,
-    #[serde(deserialize_with = "object::list")]
-    pieces: Vec<PresencePiece>,
+fn without_tail<'de, D: Deserializer<'de>>(d: D) -> Result<Option<CriticalCondensation>, D::Error> {
+    let read: Option<WithoutTail> = object::option(d)?;
+    Ok(read.map(|read| CriticalCondensation {
+        sigma: read.sigma,
+        stiffness_factor: read.stiffness_factor,
+        mass_sigma: read.mass_sigma,
+        mass_factor: read.mass_factor,
+        anchors: read.anchors,
+        tail: None,
+    }))
 }
 
 impl PresenceCertificate {
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let file = PresenceFile {
-            format: PRESENCE_FORMAT.into(),
-            problem_sha256: self.problem_sha256.clone(),
-            from: Number(self.from.clone()),
-            to: Number(self.to.clone()),
-            condensation: self.condensation.clone().map(WithoutTail::from),
-            pieces: self.pieces.clone(),
-        };
-
-        // The file consists of strings, numbers and lists, so writing it cannot fail.
-        serde_json::to_string(&file).unwrap_or_default()
+        to_json_of(PRESENCE_FORMAT, self)
     }
 
     /// Reads a certificate.
@@ -147,15 +116,6 @@ impl PresenceCertificate {
     /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<PresenceCertificate, ModelError> {
-        require_format(text, PRESENCE_FORMAT)?;
-        let file: PresenceFile = from_json(text)?;
-
-        Ok(PresenceCertificate {
-            problem_sha256: file.problem_sha256,
-            from: file.from.0,
-            to: file.to.0,
-            condensation: file.condensation.map(CriticalCondensation::from),
-            pieces: file.pieces,
-        })
+        from_json_of(PRESENCE_FORMAT, text)
     }
 }

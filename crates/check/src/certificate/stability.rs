@@ -11,10 +11,12 @@
 //! This module holds data and reads and writes it; it decides nothing. The checker is
 //! `crate::stability`, the normative text is `spec/certificates.md`, 5.21.
 
-use super::{Factor, IntegerMatrix, Number, integer_rows, integers, object};
+use super::{
+    Factor, IntegerMatrix, Number, integer_rows, integers, object, rational, rational_or_zero,
+};
 use mceip_exact::{Integer, Rational};
 use mceip_model::ModelError;
-use mceip_model::file::{from_json, require_format};
+use mceip_model::file::{from_json_of, to_json_of};
 use num_traits::Zero;
 use serde::{Deserialize, Serialize};
 
@@ -22,23 +24,37 @@ use serde::{Deserialize, Serialize};
 pub const STABILITY_FORMAT: &str = "mceip-stability/1";
 
 /// The claim that the equilibrium is stable for every mu > 0 in [`from`, `to`], and its proof.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct StabilityCertificate {
     /// SHA-256 of the problem's canonical form.
     pub problem_sha256: String,
     /// Smallest friction; >= 0. A file without it means 0.
+    #[serde(
+        default,
+        with = "rational_or_zero",
+        skip_serializing_if = "Rational::is_zero"
+    )]
     pub from: Rational,
     /// Largest friction; > `from`.
+    #[serde(with = "rational")]
     pub to: Rational,
     /// m > 0 with M0 - m I positive semidefinite, M0 the mass of the admissible motions.
+    #[serde(with = "rational")]
     pub mass_sigma: Rational,
     /// Approximate Cholesky factor of M0 - m I, where that is no diagonal matrix.
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_factor: Option<Factor>,
     /// How the free variables were eliminated; absent where there are none.
+    #[serde(default, deserialize_with = "object::option")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub condensation: Option<StabilityCondensation>,
     /// The evidence at mu = `from`.
+    #[serde(deserialize_with = "object::one")]
     pub lower: StabilityEnd,
     /// The evidence at mu = `to`.
+    #[serde(deserialize_with = "object::one")]
     pub upper: StabilityEnd,
 }
 
@@ -81,45 +97,10 @@ pub struct StabilityEnd {
     pub factor: Factor,
 }
 
-/// The file form of a [`StabilityCertificate`].
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StabilityFile {
-    format: String,
-    problem_sha256: String,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    from: Option<Number>,
-    to: Number,
-    mass_sigma: Number,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mass_factor: Option<Factor>,
-    #[serde(default, deserialize_with = "object::option")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    condensation: Option<StabilityCondensation>,
-    #[serde(deserialize_with = "object::one")]
-    lower: StabilityEnd,
-    #[serde(deserialize_with = "object::one")]
-    upper: StabilityEnd,
-}
-
 impl StabilityCertificate {
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let file = StabilityFile {
-            format: STABILITY_FORMAT.into(),
-            problem_sha256: self.problem_sha256.clone(),
-            from: (!self.from.is_zero()).then(|| Number(self.from.clone())),
-            to: Number(self.to.clone()),
-            mass_sigma: Number(self.mass_sigma.clone()),
-            mass_factor: self.mass_factor.clone(),
-            condensation: self.condensation.clone(),
-            lower: self.lower.clone(),
-            upper: self.upper.clone(),
-        };
-
-        // The file consists of strings, numbers and lists, so writing it cannot fail.
-        serde_json::to_string(&file).unwrap_or_default()
+        to_json_of(STABILITY_FORMAT, self)
     }
 
     /// Reads a certificate.
@@ -128,18 +109,6 @@ impl StabilityCertificate {
     /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
     /// number that cannot be read.
     pub fn from_json(text: &str) -> Result<StabilityCertificate, ModelError> {
-        require_format(text, STABILITY_FORMAT)?;
-        let file: StabilityFile = from_json(text)?;
-
-        Ok(StabilityCertificate {
-            problem_sha256: file.problem_sha256,
-            from: file.from.map_or_else(Rational::zero, |from| from.0),
-            to: file.to.0,
-            mass_sigma: file.mass_sigma.0,
-            mass_factor: file.mass_factor,
-            condensation: file.condensation,
-            lower: file.lower,
-            upper: file.upper,
-        })
+        from_json_of(STABILITY_FORMAT, text)
     }
 }

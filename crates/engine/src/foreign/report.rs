@@ -9,7 +9,7 @@ use crate::candidate::{Candidate, SOLUTIONS_FORMAT, scaled_exactly};
 use crate::reduction::project;
 use crate::tolerance::X_RADIUS;
 use mceip_exact::{Rational, to_f64};
-use mceip_model::file::{Number, Object, from_json_with_unique_keys, require_format};
+use mceip_model::file::{Number, Object, from_json_of_with_unique_keys, require_format};
 use mceip_model::{Body, ModelError, Problem, Reduced};
 use num_traits::Zero as _;
 use serde::{Deserialize, Deserializer};
@@ -225,7 +225,7 @@ impl ForeignReport {
     ) -> Result<ForeignReport, ForeignError> {
         require_format(text, SOLUTIONS_FORMAT)?;
         require_short_numbers(text)?;
-        let Object(raw): Object<RawReport> = from_json_with_unique_keys(text)?;
+        let raw: RawReport = from_json_of_with_unique_keys(SOLUTIONS_FORMAT, text)?;
         let expected = problem.sha256();
         if let Some(got) = raw.problem_sha256.filter(|d| *d != expected) {
             return Err(ForeignError::Digest {

@@ -7,7 +7,7 @@
 use super::exact::{ExactMcp, ExactMcpError};
 use mceip_exact::{Rational, whole};
 use mceip_model::ModelError;
-use mceip_model::file::{Number, from_json, require_format};
+use mceip_model::file::{Number, from_json_of};
 use serde::Deserialize;
 
 /// The format of plain problems.
@@ -15,12 +15,10 @@ pub const MCP_FORMAT: &str = "mceip-mcp/1";
 /// The format of their solutions, which are their own certificates.
 pub const SOLUTION_FORMAT: &str = "mceip-mcp-solution/1";
 
-/// A problem as it stands in the file; the format has been checked before.
+/// A problem as it stands in the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawProblemFile {
-    #[serde(rename = "format")]
-    _format: String,
     #[serde(rename = "name")]
     _name: Option<String>,
     #[serde(rename = "comment")]
@@ -61,8 +59,7 @@ pub enum FileError {
 /// );
 /// ```
 pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
-    require_format(text, MCP_FORMAT)?;
-    let raw: RawProblemFile = from_json(text)?;
+    let raw: RawProblemFile = from_json_of(MCP_FORMAT, text)?;
     let n = raw.q.len();
 
     let lower = match raw.lower {
@@ -88,12 +85,10 @@ fn exact_bounds(bounds: Vec<Option<Number>>) -> Vec<Option<Rational>> {
     bounds.map(|bound| bound.map(|number| number.0)).collect()
 }
 
-/// A solution file as it stands; the format has been checked before.
+/// A solution file as it stands.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawSolutionFile {
-    #[serde(rename = "format")]
-    _format: String,
     problem_sha256: String,
     z: Vec<Vec<Number>>,
 }
@@ -123,8 +118,7 @@ pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
 /// # Errors
 /// [`FileError`].
 pub fn read_solution(text: &str) -> Result<McpCertificate, FileError> {
-    require_format(text, SOLUTION_FORMAT)?;
-    let raw: RawSolutionFile = from_json(text)?;
+    let raw: RawSolutionFile = from_json_of(SOLUTION_FORMAT, text)?;
     Ok(McpCertificate {
         problem_sha256: raw.problem_sha256,
         points: raw.z.into_iter().map(exact).collect(),

@@ -3,7 +3,7 @@
 
 use super::matrix::RawMatrix;
 use super::raw::{RawCoordinates, RawParticle};
-use super::{Number, Object, from_json, require_format};
+use super::{Number, Object, from_json_of};
 use crate::loaded::{ContactCandidate, LoadStep, LoadedBody, LoadedParts};
 use crate::{Coordinates, ModelError};
 use mceip_exact::{Rational, whole};
@@ -31,8 +31,6 @@ pub struct LoadsFile {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawLoads {
-    #[serde(rename = "format")]
-    _format: String, // checked before
     name: Option<String>,
     comment: Option<String>,
     #[serde(default)]
@@ -83,8 +81,7 @@ struct RawStep {
 /// # Errors
 /// [`ModelError`] with the place, what was expected and what was found.
 pub fn read_loads(text: &str, folder: &Path) -> Result<LoadsFile, ModelError> {
-    require_format(text, LOADS_FORMAT)?;
-    let Object(raw): Object<RawLoads> = from_json(text)?;
+    let raw: RawLoads = from_json_of(LOADS_FORMAT, text)?;
     raw.build(folder)
 }
 

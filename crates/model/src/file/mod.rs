@@ -1,12 +1,13 @@
 //! `mceip-problem/1`: reading and writing problem files, every number exactly as spelt; with the
 //! same pieces `mceip-loads/1`, bodies under loads (`loads`).
 //!
-//! A file is text of bounded size (`read_text`), JSON of a known format (`require_format`,
-//! `from_json`), a problem whose preconditions are established (`raw`). Each step refuses with a
+//! A file is text of bounded size (`read_text`), JSON of a known format (`format`), a
+//! problem whose preconditions are established (`raw`). Each step refuses with a
 //! [`ModelError`] that names the place. The format is specified in `spec/formats.md`.
 //!
 //! Other crates read their own formats with the same pieces: [`Number`], [`Object`], [`Word`].
 
+mod format;
 mod loads;
 mod market;
 mod matrix;
@@ -18,6 +19,9 @@ mod raw;
 mod unique;
 mod write;
 
+pub use format::{
+    from_json_of, from_json_of_with_unique_keys, require_format, to_json_of, to_pretty_json_of,
+};
 pub use loads::{LOADS_FORMAT, LoadsFile, read_loads};
 pub use market::{FRACTIONS, read_matrix_market, read_printed_radius, write_matrix_market};
 pub use number::Number;
@@ -50,8 +54,7 @@ pub const MAX_FILE_BYTES: u64 = 1 << 30;
 /// assert!(read_problem("{}", std::path::Path::new(".")).is_err());
 /// ```
 pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
-    require_format(text, PROBLEM_FORMAT)?;
-    let Object(raw): Object<raw::RawProblem> = from_json(text)?;
+    let raw: raw::RawProblem = from_json_of(PROBLEM_FORMAT, text)?;
     raw.build(folder)
 }
 
@@ -91,8 +94,7 @@ pub struct SystemFile {
 /// # Errors
 /// As [`read_problem`].
 pub fn read_system(text: &str, folder: &Path) -> Result<Option<SystemFile>, ModelError> {
-    require_format(text, PROBLEM_FORMAT)?;
-    let Object(raw): Object<raw::RawProblem> = from_json(text)?;
+    let raw: raw::RawProblem = from_json_of(PROBLEM_FORMAT, text)?;
     raw.build_system(folder)
 }
 
@@ -216,30 +218,6 @@ fn leads_out_of(folder: &Path, path: &Path) -> bool {
     match (path.canonicalize(), folder.canonicalize()) {
         (Ok(real), Ok(real_folder)) => !real.starts_with(&real_folder),
         _ => false,
-    }
-}
-
-/// Checks the `format` field before anything else, so that another version is named as such.
-///
-/// # Errors
-/// [`ModelError::Json`] if the text is no JSON object, [`ModelError::Format`] for another version.
-pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelError> {
-    #[derive(serde::Deserialize)]
-    struct FormatHeader {
-        format: Option<serde_json::Value>,
-    }
-
-    let Object(header): Object<FormatHeader> = from_json(text)?;
-    match header.format {
-        Some(serde_json::Value::String(s)) if s == expected => Ok(()),
-        Some(other) => Err(ModelError::Format {
-            expected,
-            got: other.to_string().chars().take(60).collect(),
-        }),
-        None => Err(ModelError::Format {
-            expected,
-            got: "no format field".into(),
-        }),
     }
 }
 

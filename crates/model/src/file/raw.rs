@@ -19,8 +19,6 @@ use std::path::Path;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawProblem {
-    #[serde(rename = "format")]
-    _format: String, // checked before
     name: Option<String>,
     comment: Option<String>,
     #[serde(default)]
@@ -523,6 +521,43 @@ mod tests {
 
         assert_eq!(problem, again);
         assert_eq!(problem.sha256(), again.sha256());
+    }
+
+    /// The digest has the product of curvature and reaction, and not a product of 0.
+    #[test]
+    fn a_curvature_is_read_and_written() {
+        let with = |curvature: &str| {
+            let particle = r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": 1 ITS}"#;
+            read(&system(&particle.replace("ITS", curvature)))
+        };
+        let of = |value: &str, reaction: &str| {
+            with(&format!(
+                r#", "curvature": {{"value": {value}, "normal_reaction": {reaction}}}"#
+            ))
+        };
+        let flat = with("").unwrap();
+        let curved = of(r#""1/4""#, "-3").unwrap();
+
+        assert_eq!(read(&write_problem(&curved)).unwrap(), curved);
+        let expected = "normal 1 1\ngeometric_stiffness -3/4\nstiffness";
+        assert!(curved.canonical_text().contains(expected));
+        assert_eq!(
+            of("-0.5", "-1.5").unwrap().sha256(),
+            of("-1.5", "-0.5").unwrap().sha256()
+        );
+        assert_eq!(of("0", "-3").unwrap().sha256(), flat.sha256());
+
+        for reaction in ["0", "2"] {
+            assert!(matches!(
+                of("1", reaction),
+                Err(ModelError::Curvature { particle: 0, .. })
+            ));
+        }
+        let malformed = with(r#", "curvature": {"value": 1}"#);
+        assert!(
+            matches!(malformed, Err(ModelError::Json { .. })),
+            "{malformed:?}"
+        );
     }
 
     /// The factor is part of the digest, and the factor 1 is none.

@@ -10,7 +10,9 @@ use super::family::{CampaignCase, Id, case};
 use crate::error::TestkitError;
 use crate::families::Instance;
 use mceip_exact::parse;
-use mceip_model::file::{from_json_with_unique_keys, read_problem, require_format, write_problem};
+use mceip_model::file::{
+    from_json_of_with_unique_keys, read_problem, to_pretty_json_of, write_problem,
+};
 use mceip_oracle::TwoParticles;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -22,7 +24,6 @@ pub const REPLAY_FORMAT: &str = "mceip-replay/1";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Replay {
-    format: String,
     /// The family the instance was drawn from.
     pub family: String,
     /// The campaign's seed.
@@ -71,7 +72,6 @@ impl Replay {
         let problem = serde_json::from_str(&problem).unwrap_or_default();
 
         Replay {
-            format: REPLAY_FORMAT.into(),
             family: case.id.family.clone(),
             seed: case.id.seed,
             index: case.id.index,
@@ -99,8 +99,7 @@ impl Replay {
 
     /// The file's text.
     pub fn to_json(&self) -> String {
-        // Strings and numbers: cannot fail.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        to_pretty_json_of(REPLAY_FORMAT, self)
     }
 
     /// Reads a file.
@@ -108,8 +107,7 @@ impl Replay {
     /// # Errors
     /// [`TestkitError`] for what is not one.
     pub fn from_json(text: &str) -> Result<Replay, TestkitError> {
-        require_format(text, REPLAY_FORMAT)?;
-        Ok(from_json_with_unique_keys(text)?)
+        Ok(from_json_of_with_unique_keys(REPLAY_FORMAT, text)?)
     }
 
     /// The case to judge again. Where the instance is as drawn, what is known by construction comes

@@ -8,7 +8,7 @@ use super::family::Id;
 use crate::error::TestkitError;
 use crate::floors::{Covered, Shortfall};
 use crate::tally::Tally;
-use mceip_model::file::{from_json_with_unique_keys, require_format};
+use mceip_model::file::{from_json_of_with_unique_keys, to_json_of, to_pretty_json_of};
 use mceip_model::sha256;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,6 @@ pub const STATE_FORMAT: &str = "mceip-campaign/1";
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
-    format: String,
     /// The campaign's seed.
     pub seed: u64,
     /// Part of so many, from 0.
@@ -44,7 +43,6 @@ impl State {
     pub fn new(seed: u64, shard: (u64, u64), families: Vec<String>) -> State {
         let tallies = vec![Tally::default(); families.len()];
         State {
-            format: STATE_FORMAT.into(),
             seed,
             shard,
             families,
@@ -104,8 +102,7 @@ impl State {
             sha256: Some(self.digest()),
             ..self.clone()
         };
-        // Strings and numbers: cannot fail.
-        serde_json::to_string_pretty(&bound).unwrap_or_default() + "\n"
+        to_pretty_json_of(STATE_FORMAT, &bound)
     }
 
     /// The SHA-256 of the state without its digest, as JSON in one line. It holds seed, part and
@@ -115,7 +112,7 @@ impl State {
             sha256: None,
             ..self.clone()
         };
-        sha256(&serde_json::to_string(&plain).unwrap_or_default())
+        sha256(&to_json_of(STATE_FORMAT, &plain))
     }
 
     /// Was it read with a digest that binds it to its run?
@@ -169,8 +166,7 @@ impl State {
     /// # Errors
     /// [`TestkitError`].
     pub fn resumed(&self, text: &str) -> Result<State, TestkitError> {
-        require_format(text, STATE_FORMAT)?;
-        let state: State = from_json_with_unique_keys(text)?;
+        let state: State = from_json_of_with_unique_keys(STATE_FORMAT, text)?;
         state.require_own_digest()?;
         state.require_counts()?;
 

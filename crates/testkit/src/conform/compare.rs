@@ -14,7 +14,7 @@ use super::judge::Label;
 use super::pack::of_word;
 use super::summary::RUN_FORMAT;
 use crate::error::TestkitError;
-use mceip_model::file::{from_json, require_format};
+use mceip_model::file::from_json_of;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -76,7 +76,7 @@ impl ConformRun {
     /// [`TestkitError::Problem`] for other JSON, [`TestkitError::Word`] for a label or difficulty
     /// that there is not, [`TestkitError::OtherRun`] for counts or a time that cannot be.
     pub fn read(name: &str, text: &str) -> Result<ConformRun, TestkitError> {
-        let raw = require_format(text, RUN_FORMAT).and_then(|()| from_json(text));
+        let raw = from_json_of(RUN_FORMAT, text);
         let raw: RawRun = raw.map_err(|e| TestkitError::problem(name, e))?;
         let records = raw.results.into_iter().map(|raw| record(name, raw));
         Ok(ConformRun {

@@ -11,7 +11,7 @@ use super::flag::Flag;
 use super::wrong::Bug;
 use crate::error::TestkitError;
 use mceip_engine::run::{Progress, Watch};
-use mceip_model::file::{from_json, read_problem, read_text, require_format};
+use mceip_model::file::{from_json_of, read_problem, read_text};
 use mceip_model::{ModelError, sha256};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -205,8 +205,6 @@ impl CaseLine {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawIndex {
-    #[serde(rename = "format")]
-    _format: String,
     #[serde(default)]
     version: String,
     #[serde(default = "first_tier")]
@@ -236,8 +234,6 @@ struct RawEntry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawGroup {
-    #[serde(rename = "format")]
-    _format: String,
     group: String,
     comment: String,
     cases: Vec<RawCase>,
@@ -285,8 +281,7 @@ pub fn read_pack(folder: &Path) -> Result<CasePack, TestkitError> {
 /// Reads `index.json`.
 fn read_index(folder: &Path) -> Result<RawIndex, ModelError> {
     let text = read_text("the index", &folder.join("index.json"))?;
-    require_format(&text, INDEX_FORMAT)?;
-    from_json(&text)
+    from_json_of(INDEX_FORMAT, &text)
 }
 
 /// Reads the file of a group and answers its cases again.
@@ -303,7 +298,7 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, TestkitError> {
         });
     }
 
-    let raw = require_format(&text, PACK_FORMAT).and_then(|()| from_json(&text));
+    let raw = from_json_of(PACK_FORMAT, &text);
     let raw: RawGroup = raw.map_err(|e| TestkitError::problem(&entry.file, e))?;
     let drafts = raw
         .cases
