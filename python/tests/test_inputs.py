@@ -80,6 +80,25 @@ def test_a_particle_may_have_its_own_friction():
     assert halved.solve().solutions[0].value == with_contacts([ROW]).solve().solutions[0].value
 
 
+def test_a_particle_may_slip_on_a_curved_obstacle():
+    stiffness, mass = np.diag([2.0, 2.0]), np.eye(2)
+    reaction = {"reaction_tangential": 3, "reaction_normal": -3}
+
+    def on(curvature, **given):
+        contacts = [mceip.Contact(0, 1, "slip-", curvature=curvature, **given)]
+        return mceip.Problem.from_matrices(stiffness, mass, 1, contacts, accept_warnings=True)
+
+    # lambda^2 + 2 - 2 * 3/2 (spec/curvature.md, K.3).
+    convex = on("1/2", **reaction)
+    assert [solution.value for solution in convex.complete().solutions] == pytest.approx([1.0])
+    assert on(-0.5, **reaction).complete().solutions == []
+
+    with pytest.raises(mceip.MceipError, match="beside the curvature"):
+        on(0.5)
+    with pytest.raises(mceip.MceipError, match="curved obstacle"):
+        convex.analyze(samples=0)
+
+
 def test_answers_call_a_particle_by_its_name():
     named = with_contacts([mceip.Contact(0, 1, "slip+", name="heel")], friction=3)
     tabled = with_contacts([{**ROW, "particle": "heel"}], friction=3)

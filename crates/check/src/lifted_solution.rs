@@ -252,17 +252,14 @@ impl Lines<'_> {
         self.on_cone(index, &self.cone(particle, &one), left)
     }
 
-    /// (1 + c^2 mu^2) kappa r_N of a slip particle, 0 on a flat obstacle. With mu as the unknown all
-    /// are flat.
+    /// (1 + c^2 mu^2) g of a slip particle. With mu as the unknown g is 0.
     fn turning(&self, particle: &Particle) -> Rational {
-        match (self.unknown, self.system.friction(), &particle.curvature) {
-            (Unknown::Lambda2, Some(mu), Some(curvature)) => {
-                let friction = mu * &particle.friction_factor;
-                let turned = Rational::one() + &friction * &friction;
-                turned * &curvature.value * &curvature.normal_reaction
-            }
-            _ => Rational::zero(),
-        }
+        let Some(mu) = self.system.friction() else {
+            return Rational::zero();
+        };
+
+        let friction = mu * &particle.friction_factor;
+        (Rational::one() + &friction * &friction) * particle.geometric_stiffness()
     }
 
     /// S w_T + mu w_N, where mu is a number of the system or the unknown itself.

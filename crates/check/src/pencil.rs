@@ -38,8 +38,8 @@
 
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
-use mceip_model::{Body, ContactState, Curvature, Direction, Particle, Problem, System, Unknown};
-use num_traits::Signed as _;
+use mceip_model::{Body, ContactState, Direction, Particle, Problem, System, Unknown};
+use num_traits::{One as _, Signed as _, Zero as _};
 use std::collections::BTreeMap;
 
 /// One row of A + tB with denominators cleared: (column, coefficient in A, coefficient in B).
@@ -526,17 +526,12 @@ impl Variables {
         self.trial.reduced(p, matrix)
     }
 
-    /// What turns along a curved obstacle, in row i: the factor (1 + c^2 mu^2) kappa r_N of x_i.
+    /// The factor (1 + c^2 mu^2) g of x_i in row i, where i slips along a curved obstacle.
     fn turning(&self, i: usize, mu: &Rational) -> Option<Rational> {
         let particle = self.slip.get(i.checked_sub(self.free)?)?;
-        let Curvature {
-            value,
-            normal_reaction,
-        } = particle.curvature.as_ref()?;
-
         let friction = mu * &particle.friction_factor;
-        let one = Rational::from_integer(1.into());
-        Some((one + &friction * &friction) * value * normal_reaction)
+        let turned = Rational::one() + &friction * &friction;
+        Some(turned * particle.geometric_stiffness()).filter(|turning| !turning.is_zero())
     }
 }
 
@@ -625,7 +620,7 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
     use mceip_model::reduction::reduce;
-    use mceip_model::{Pencil, Window};
+    use mceip_model::{Curvature, Pencil, Window};
 
     /// A symmetric matrix of order 6 with entries from -3 to 3 over `denominator`, and `diagonal`
     /// added to its diagonal.
@@ -791,6 +786,43 @@ mod tests {
             assert_eq!(rows.is_free, expected.is_free);
             for i in 0..expected.order() {
                 assert_eq!(as_given(&rows, i), as_given(&expected, i), "{mu}, row {i}");
+            }
+        }
+    }
+
+    /// Both particles on curved obstacles, one convex and one hollow, beside zero reaction too.
+    #[test]
+    fn the_pencil_has_what_turns_along_curved_obstacles() {
+        for second in [ContactState::Slip { sign: -1 }, ContactState::Zero] {
+            let flat = system(second);
+            let mut particles = flat.particles().to_vec();
+            for (particle, value) in particles.iter_mut().zip([rational(3, 7), whole(-2)]) {
+                particle.curvature =
+                    matches!(particle.state, ContactState::Slip { .. }).then(|| Curvature {
+                        value,
+                        normal_reaction: rational(-5, 2),
+                    });
+            }
+            let stiffness = flat.stiffness().clone();
+            let friction = flat.friction().cloned();
+            let curved = System::new(stiffness, flat.mass().cloned(), friction, particles);
+            let body = Body::System(curved.unwrap());
+            let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+
+            let rows = Rows::of(&problem);
+            let pencil = reduce(&problem).unwrap().pencil;
+            for i in 0..rows.order() {
+                assert_row(&rows, &pencil, i);
+            }
+
+            // (1 + (2/7)^2) (3/7) (-5/2), and (1 + (5/3 2/7)^2) (-2) (-5/2).
+            let of_flat =
+                reduce(&Problem::new(Body::System(flat), Unknown::Lambda2, Window::all()).unwrap())
+                    .unwrap();
+            let added = |i: usize| pencil.a().get(i, i) - of_flat.pencil.a().get(i, i);
+            assert_eq!(added(2), rational(53 * 3 * -5, 49 * 7 * 2));
+            if second != ContactState::Zero {
+                assert_eq!(added(3), rational(541 * 5, 441));
             }
         }
     }

@@ -258,9 +258,9 @@ pub enum ModelError {
     },
     /// A curved obstacle, where it is not treated.
     #[error(
-        "E9: particle {particle} slips on a curved obstacle; expected flat ones here \
-         (not supported: complete, solve, enumerate, certify and check treat curved obstacles, \
-         with the unknown lambda2 at one friction: spec/curvature.md)"
+        "E9: particle {particle} slips on a curved obstacle; expected flat ones here (of curved \
+         ones complete, solve, enumerate, certify and check treat lambda2 at one friction: \
+         spec/curvature.md)"
     )]
     Curved {
         /// The particle.

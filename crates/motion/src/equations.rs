@@ -111,8 +111,8 @@ impl Equations {
     ///
     /// # Errors
     /// [`MotionError::Model`] without mass, friction coefficient or slip particle, with a particle
-    /// in contact with zero reaction, or with a curved obstacle; [`MotionError::Doubles`] where entries leave their
-    /// range.
+    /// in contact with zero reaction, or with a curved obstacle; [`MotionError::Doubles`] where
+    /// entries leave their range.
     pub fn new(system: &System) -> Result<Equations, MotionError> {
         system.require_for(Unknown::Lambda2)?;
         system.require_no_zero()?;

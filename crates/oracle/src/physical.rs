@@ -9,8 +9,8 @@
 //! reaction (z), which section 3 of the paper leaves out, are treated as well.
 //!
 //! Each particle is in one of three *modes*. With its unit tangent, its unit normal into the
-//! obstacle, and cone(S) = S w_T + mu w_N (on a curved obstacle, `spec/curvature.md`, with the rates
-//! w_T + phi r_N and w_N - phi r_T of the reaction in the directions that turn by phi = kappa v_T):
+//! obstacle, and cone(S) = S w_T + mu w_N (on a curved obstacle with the rates w_T + phi r_N and
+//! w_N - phi r_T of the reaction in directions that turn by phi = kappa v_T, `spec/curvature.md`):
 //!
 //! | mode | equations |
 //! |---|---|

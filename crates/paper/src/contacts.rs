@@ -926,6 +926,16 @@ mod tests {
             })
         );
 
+        // A curvature goes with the reaction along the normal, where the particle slips.
+        let curved = format!("{header},curvature\n0,1,slip-,-0.6,0.8,2,-1,0.25\n");
+        let expected = Curvature {
+            value: rational(1, 4),
+            normal_reaction: whole(-2),
+        };
+        assert_eq!(read(&curved).unwrap()[0].curvature, Some(expected));
+        let at_rest = "tangential,normal,state,curvature\n0,1,stick,0.25\n";
+        assert_eq!(read(at_rest).unwrap()[0].curvature, None);
+
         let out_of_it = read(&format!("{header}\n0,1,slip-,0.6,-0.8,2,-1\n"));
         assert!(matches!(
             out_of_it,
