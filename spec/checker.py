@@ -427,6 +427,7 @@ class Problem:
         self.system = None
         self.radii = None  # of K and M by rows, and the share of each variable (C, 5.22)
         self.halves = []  # (right, left) for each particle in contact with zero reaction
+        self.curved = False  # a particle has a geometric stiffness (F, Curvature)
         self.spread = None
         text = ["mceip-canonical/1", f"unknown {self.unknown}"]
         text += self.read_pencil(pencil, folder) if system is None else self.read_system(system, folder)
@@ -467,7 +468,7 @@ class Problem:
         taken, held, trial, test, slips, sticks, zeros = set(), set(), [], [], [], [], []
         exact, shares = not any(of_k) and not any(of_m), []
         for p in sequence(particles):
-            t, n, state, tangent, normal, sign, factor, ends = self.read_particle(p, order, mu)
+            t, n, state, tangent, normal, sign, factor, ends, stiffness = self.read_particle(p, order, mu)
             if taken & {t, n} or t == n:
                 raise Unreadable("a dof in two particles")
             taken |= {t, n}
@@ -475,13 +476,17 @@ class Problem:
             if ends is not None:  # C, 5.22: the middle and the share
                 exact, factor = False, sum(ends) / 2
                 text.append(f"friction_factor_range {ends[0]} {ends[1]}")
+            if stiffness:
+                self.curved = True
+                text.append(f"geometric_stiffness {stiffness}")
             friction = {d: factor * c for d, c in normal.items()}
             if state != "free":
                 held |= {t, n}
             if state == "stick":
                 sticks += [t, n]
             elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
-                slips.append((tangent, normal, friction, sign))
+                turning = (1 + (factor * mu) ** 2) * stiffness if stiffness and mu is not None else Q(0)  # K.1
+                slips.append((tangent, normal, friction, sign, turning))
                 shares.append(Q(0) if ends is None else (ends[1] - ends[0]) / (ends[1] + ends[0]))
                 trial.append({d: -sign * c for d, c in tangent.items()})
                 test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in friction.items()}))
@@ -500,6 +505,8 @@ class Problem:
         if self.unknown == "lambda2":  # E15
             rows = [{d: u.get(d, 0) + mu * w.get(d, 0) for d in {*u, *w}} for u, w in test]
             self.a, self.b = project(rows, k.rows, trial), project(rows, m.rows, trial)
+            for i, (*_, turning) in enumerate(slips, len(free)):
+                self.a[i] = {j: v for j, v in plus(self.a[i], {i: turning}).items() if v}
         else:  # E21
             self.a, self.b = project([u for u, _ in test], k.rows, trial), project([w for _, w in test], k.rows, trial)
         self.n, self.free = len(trial), list(range(len(free)))
@@ -507,6 +514,8 @@ class Problem:
             raise Unreadable("particles: expected one in impending slip")
         if zeros and not exact:
             raise Unreadable("radii beside a particle in state zero")
+        if self.curved and (self.unknown != "lambda2" or not exact):
+            raise Unreadable("a curved system has the unknown lambda2 and no radii")
         if not exact:
             self.radii = of_k, of_m, [Q(0)] * len(free) + shares
         text += matrix_lines(k, m)
@@ -518,9 +527,9 @@ class Problem:
 
     @staticmethod
     def read_particle(obj, order, mu):
-        t, n, state, sign, direction, frame, factor, ends, reaction, name = fields(
+        t, n, state, sign, direction, frame, factor, ends, reaction, curvature, name = fields(
             obj, "tangential normal state",
-            "sign normal_direction frame friction_factor friction_factor_range reaction name")
+            "sign normal_direction frame friction_factor friction_factor_range reaction curvature name")
         Maybe(text_of)(name)
         t, n = index(t, order), index(n, order)
         if state not in ("free", "stick", "slip", "zero") or (sign is not None) != (state == "slip"):
@@ -548,11 +557,17 @@ class Problem:
             bad = bad or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
+        stiffness = Q(0)
+        if curvature is not None:
+            value, pressure = map(number, fields(curvature, "value normal_reaction"))
+            if state != "slip" or pressure >= 0 or (reaction is not None and rn != pressure):
+                raise Unreadable("curvature: of a slip particle, with the normal reaction r_N < 0 at equilibrium")
+            stiffness = value * pressure
         tangent, normal = {t: Q(1)}, {n: Q(direction)}
         if frame is not None:
             tangent = {t: c[0][0], n: c[0][1]}
             normal = {t: direction * c[1][0], n: direction * c[1][1]}
-        return t, n, state, tangent, normal, sign, factor, ends
+        return t, n, state, tangent, normal, sign, factor, ends, stiffness
 
 
 def particle_lines(t, n, state, sign, tangent, normal, factor):
@@ -762,10 +777,10 @@ def lifted_solution(p, rows, window, obj):
     for i in sticks:
         demand(not plus((Q(1), v[i], 0)), f"lifted 4: v_d = 0 at dof {i}")
 
-    def cone(tangent, friction, sign):
-        """S w_T + mu w_N."""
+    def cone(tangent, friction, sign, turning=Q(0)):
+        """S w_T + mu w_N, and (1 + mu^2) g S v_T on a curved obstacle."""
         if p.unknown == "lambda2":
-            return plus(*along(tangent, Q(sign), w), *along(friction, mu, w))
+            return plus(*along(tangent, Q(sign), w), *along(friction, mu, w), *along(tangent, sign * turning, v))
         return plus(*along(tangent, Q(sign), w), *along(friction, Q(1), w, 1))
 
     def complementary(place, rate, force, other=False):
@@ -778,9 +793,9 @@ def lifted_solution(p, rows, window, obj):
             demand(not force, f"lifted 6: variable {place} is biactive")
         else:
             demand(horner(force, a, b)[1] < 0, f"lifted 6: variable {place} rests")
-    for place, (tangent, normal, friction, sign) in enumerate(slips, len(free)):
+    for place, (tangent, normal, friction, sign, turning) in enumerate(slips, len(free)):
         demand(not plus(*along(normal, Q(1), v)), f"lifted 5: v_N = 0 at variable {place}")
-        complementary(place, plus(*along(tangent, Q(sign), v)), cone(tangent, friction, sign))
+        complementary(place, plus(*along(tangent, Q(sign), v)), cone(tangent, friction, sign, turning))
     for (right, left), (tangent, normal, friction) in zip(p.halves, zeros):
         complementary(right - 1, plus(*along(normal, Q(1), v)), plus(*along(normal, Q(1), w)))
         complementary(right, plus(*along(tangent, Q(-1), v)), cone(tangent, friction, -1), left in support)
@@ -2108,6 +2123,7 @@ def check_critical(p, doc):
     below, lowest = number(below), Q(0) if lowest is None else number(lowest)
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
+    demand(not p.curved, "Curved: this kind of certificate speaks of flat obstacles")
     demand(below > 0, "below is not positive")
     demand(0 <= lowest < below, "from and below")
     ns = len(p.s)
@@ -2280,6 +2296,7 @@ def check_presence(p, doc):
     start, stop = number(start), number(stop)
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.system is not None and p.unknown == "lambda2", "a mechanical system with the unknown lambda2 was expected")
+    demand(not p.curved, "Curved: this kind of certificate speaks of flat obstacles")
     demand(not p.halves, "presence on an interval of friction is not defined for zero reaction")
     demand(0 <= start < stop, "from and to")
     ns = len(p.s)
@@ -2439,6 +2456,7 @@ def check_stability(p, doc):
     demand(p.radii is None, "Radii")
     demand(p.system is not None, "NotASystem")  # 2
     demand(p.unknown == "lambda2", "Unknown: lambda2 was expected")
+    demand(not p.curved, "Curved")
     demand(not p.halves, "ZeroReaction")
     demand(0 <= start < stop, "FrictionRange: from and to")  # 3
     demand((obj is not None) == bool(p.free), "Cover.Condensation: present exactly if there are free variables")  # 4
@@ -2568,12 +2586,12 @@ class Loads:
         self.order, self.candidates, self.gaps = len(kept), [], []
         text = ["mceip-canonical-loads/1"]
         for obj in sequence(candidates):
-            if not isinstance(obj, dict) or "state" in obj or "friction_factor_range" in obj:
-                raise Unreadable("a candidate has no state and no friction_factor_range")
+            if not isinstance(obj, dict) or {"state", "sign", "friction_factor_range", "curvature", "reaction"} & set(obj):
+                raise Unreadable("a candidate has no state, sign, friction_factor_range, curvature or reaction")
             obj, gap = {key: v for key, v in obj.items() if key != "gap"}, obj.get("gap")
             gap = Q(0) if gap is None else number(gap)
             obj = {**obj, "state": "stick"}
-            t, n, _, tangent, normal, _, factor, _ = Problem.read_particle(obj, order, None)
+            t, n, _, tangent, normal, _, factor, *_ = Problem.read_particle(obj, order, None)
             if gap < 0 or t not in new or n not in new or t == n:
                 raise Unreadable("a candidate on a held dof, or with a negative gap")
             tangent, normal = ({new[d]: c for d, c in v.items()} for v in (tangent, normal))
