@@ -299,6 +299,19 @@ fn of_shape(error: &ModelError) -> bool {
 #[test]
 fn malformed_problems_are_invalid_or_wrong_in_meaning() {
     let meaning = [
+        "curvature-factor-range",
+        "curvature-factor-range-beside",
+        "curvature-flat-reaction-zero",
+        "curvature-flat-stick",
+        "curvature-free",
+        "curvature-mu",
+        "curvature-radii-mass",
+        "curvature-radii-stiffness",
+        "curvature-reaction-positive",
+        "curvature-reaction-zero",
+        "curvature-reactions-differ",
+        "curvature-stick",
+        "curvature-zero",
         "friction-factor-zero",
         "friction-zero",
         "index-out-of-range",
@@ -323,7 +336,7 @@ fn malformed_problems_are_invalid_or_wrong_in_meaning() {
         let accepted = value.is_ok_and(|value| problems.is_valid(&value));
 
         // A duplicate key is gone before a schema sees the value: the reader is stricter by nature.
-        let stricter = name == "duplicate-key";
+        let stricter = ["duplicate-key", "curvature-duplicate"].contains(&name.as_str());
         let of_meaning = meaning.contains(&name.as_str());
         assert_eq!(accepted, stricter || of_meaning, "{name}: {error}");
 
