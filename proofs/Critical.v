@@ -26,7 +26,8 @@
 
    Theorem [zero_critical_absent]: if the check succeeds, then for every mu in [from, bound] and
    every t >= 0 no motion satisfies the conditions (9) with lambda^2 = t and mu.
-   [critical_absent]: the same without z particles.
+   [critical_absent]: the same without z particles.  All obstacles are flat: otherwise the check
+   fails ([zero_wellformed_flat]).
 
    Pages: spec/certificates.md, 5.18; spec/zero-reaction.md, Z.3 (frictions) and Z.4.
    Rust: crates/check/src/critical.rs, cover/critical.rs. *)
@@ -116,7 +117,7 @@ Definition check_critical_leaf (parts : option (enclosed * enclosed)) (r : regio
 
 Definition check_critical (tr : tree critical_leaf) (from bound : point) :=
   let parts := condensed_parts in
-  [&& zero_wellformed z (Lambda2 0 1), parts_eliminated &
+  [&& zero_wellformed z Mu, parts_eliminated &
       check_boxes (slip_number z) (check_critical_leaf parts) tr (window zero infinity)
         from bound].
 
@@ -174,7 +175,7 @@ End Parts.
 Section Sound.
 
 Variables (R : rcfType) (z : zero_system).
-Hypothesis wf : zero_wellformed z (Lambda2 0 1).
+Hypothesis wf_mu : zero_wellformed z Mu.
 
 Notation s := (without_zero z).
 Notation nf := (free_number s).
@@ -184,9 +185,11 @@ Notation all_dofs := (iota 0 (dofs s)).
 Notation L := (toR (unit_length s) : R).
 Notation Q0 := (part_plain z).
 Notation Q1 := (part_friction z).
-Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z.
+Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z.
 
+Let wf : zero_wellformed z (Lambda2 0 1) := zero_wellformed_plain wf_mu.
 Let wf_s : system_wellformed s (Lambda2 0 1) := wf_system wf.
+Let is_flat : flat s := zero_wellformed_flat wf_mu.
 
 (* The freed system. *)
 Notation s' := (without_zero (freed z)).
@@ -256,7 +259,10 @@ Proof. by have [_ rows _] := zero_parts_solution wf sat => /rows. Qed.
 
 Lemma slip_conditions i : i \in slip Q0 ->
   let y := reaction Q0 t x i + mu * reaction Q1 t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0].
-Proof. by have [_ _ rows] := zero_parts_solution wf sat => /rows. Qed.
+Proof.
+have [_ _ rows] := zero_parts_solution wf sat => i_slip; have := rows i i_slip.
+by rewrite (flat_split_row (u := Lambda2 0 1)).
+Qed.
 
 (* The freed system has the same motion. *)
 Notation x' := (zero_variables_of (freed z) v).
@@ -288,7 +294,8 @@ Lemma freed_slip_row e j : (j < ns)%N -> let p := particle s j in
   reaction (pencil_at z e) t x' (nf' + j)%N =
   - (toR e.2 * plain_row p + toR e.1 * friction_row p).
 Proof.
-by move=> lt_j p; rewrite (slip_part freed_wellformed) //= /along !freed_force.
+move=> lt_j p; rewrite (slip_part freed_wellformed) //= /along !freed_force.
+by rewrite flat_turning ?flat_particle // toR0 mul0r addr0.
 Qed.
 
 Lemma freed_slip_variable j : (j < ns)%N ->
@@ -391,7 +398,8 @@ transitivity (weight_of R (whole_weights a) (nf' + j) / L ^+ 2 *
   rewrite /weight_of -same /=.
   move: (toR (nth _ _ _)) (slip_rate _ _) (plain_row _) (friction_row _) (L ^+ 2)^-1 => *.
   by ring.
-by rewrite one val mul1r product mulr0.
+rewrite one val mul1r -[X in _ * (X * _)](_ : cone s t mu v (particle s j) = _) ?product ?mulr0 //.
+by rewrite /cone turning_at_flat ?mul0r ?addr0 // flat_particle.
 Qed.
 
 Lemma whole_absent a b :

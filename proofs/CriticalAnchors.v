@@ -132,7 +132,7 @@ Definition both_bounded :=
 
 Definition check_anchored_critical (tr : tree anchored_box_leaf) (from bound : point) :=
   let families := box_expansions in
-  [&& zero_wellformed z (Lambda2 0 1), nilp (box_anchors w) || both_bounded &
+  [&& zero_wellformed z Mu, nilp (box_anchors w) || both_bounded &
       check_boxes ns (check_anchored_box families) tr (window zero infinity) from bound].
 
 End Checker.
@@ -426,7 +426,7 @@ Variables (R : rcfType) (z : zero_system) (w : box_anchoring).
 Notation Q0 := (part_plain z).
 Notation Q1 := (part_friction z).
 
-Hypothesis wf : zero_wellformed z (Lambda2 0 1).
+Hypothesis wf : zero_wellformed z Mu.
 Notation wfQ := (zero_pencil_wellformed z (Lambda2 0 1)).
 Hypothesis bounds : nilp (box_anchors w) || both_bounded z None w.
 

@@ -1,4 +1,4 @@
-(* (8) if and only if (9): divergence along a constant direction.
+(* (8) if and only if (9): divergence along a constant direction, where all obstacles are flat.
 
    A motion (8) is u(t) = u0 + alpha(t) v, r(t) = r0 + beta(t) w, with alpha, alpha' and beta
    non-negative, alpha and alpha' non-decreasing, v and w constant, v != 0 and admissible: v = 0 at
@@ -190,6 +190,14 @@ Definition equilibrium :=
       forall j, v_d r0 (normal j) 0 < 0 /\
                 `|v_d r0 (tangential j) 0| + mu * stick_factor j * v_d r0 (normal j) 0 < 0].
 
+(* (9) on flat obstacles: no particle has a geometric stiffness. *)
+Definition flat_conditions_9 lambda2 :=
+  conditions_9 (K + lambda2 *: M) sign factor (fun=> 0) mu.
+
+Lemma flat_cone (v w : 'cV[R]_all_dofs) i : cone sign factor (fun=> 0) mu v w i =
+  sign i * v_T w i 0 + mu * (factor i * v_N w i 0).
+Proof. by rewrite /cone /turning mulr0 mul0r addr0. Qed.
+
 (* (3) for a displacement u and an acceleration u''. *)
 Definition momentum (u u'' r : 'cV[R]_all_dofs) := M *m u'' + K *m u = f0 + r.
 
@@ -269,7 +277,7 @@ Qed.
 (* A solution (lambda^2, v, w) of (9) gives motions (8): whatever alpha, alpha' >= 0 are at a time,
    as long as alpha is at most [bound], they satisfy (1)-(4) if alpha'' = lambda^2 alpha. *)
 Theorem motion_of_solution lambda2 v w :
-  conditions_9 (K + lambda2 *: M) sign factor mu v w ->
+  flat_conditions_9 lambda2 v w ->
   exists2 bound, 0 < bound & forall alpha alpha', 0 <= alpha <= bound -> 0 <= alpha' ->
     momentum (u0 + alpha *: v) ((lambda2 * alpha) *: v) (r0 + alpha *: w) /\
     laws (u0 + alpha *: v) (alpha' *: v) (r0 + alpha *: w).
@@ -287,7 +295,7 @@ split.
 - by apply/colP=> i; rewrite v_f_line rf wf !mxE mulr0 addr0.
 - by move=> i; rewrite v_f_line ltW.
 - move=> i; have [rN rT] := slips i; have [_ _ on_cone] := cone i.
-  have [vT inside product] := lines i.
+  have := lines i; rewrite flat_cone => -[vT inside product].
   rewrite v_N_line closed_slip vN [X in a * X]mxE mulr0 addr0.
   rewrite v_T_scale v_T_line v_N_line.
   set rT' := _ + _ in rT *; set rN' := _ + _ in rN *; set m := mu * factor i.
@@ -322,7 +330,7 @@ Theorem solution_at_one_time alpha alpha' alpha'' beta v w :
   momentum (u0 + alpha *: v) (alpha'' *: v) (r0 + beta *: w) ->
   laws (u0 + alpha *: v) (alpha' *: v) (r0 + beta *: w) ->
   0 < beta /\
-  conditions_9 (K + (alpha'' / alpha) *: M) sign factor mu v ((beta / alpha) *: w).
+  flat_conditions_9 (alpha'' / alpha) v ((beta / alpha) *: w).
 Proof.
 move=> a0 a'0 a''0 b0 [v0 vN vd vT] balance [rf _ slips _].
 have [balance0 [rf0 _ _ _] _ cone _] := at_equilibrium.
@@ -348,7 +356,7 @@ split=> //; split=> //.
   move/eqP; rewrite scaler_eq0 (gt_eqF b_pos) => /eqP wf.
   by apply/colP=> i; move/colP: wf => /(_ i); rewrite !mxE => ->; rewrite mulr0.
 move=> i; have [_ _ on_cone] := cone i; have [_ friction] := slips i.
-rewrite v_T_scale v_T_line v_N_line in friction.
+rewrite v_T_scale v_T_line v_N_line in friction; rewrite flat_cone.
 have -> : v_N ((beta / alpha) *: w) i 0 = beta / alpha * v_N w i 0 by rewrite !mxE.
 rewrite v_T_scale; set c := sign i * v_T w i 0 + mu * (factor i * v_N w i 0).
 
@@ -380,8 +388,7 @@ Definition motion_8 (tau stop : R) (alpha alpha' alpha'' beta : R -> R) v w :=
 Theorem solution_of_motion tau stop alpha alpha' alpha'' beta v w :
   admissible v -> motion_8 tau stop alpha alpha' alpha'' beta v w ->
   (exists2 t, tau <= t < stop & 0 < alpha' t) ->
-  exists lambda2 k, [/\ 0 <= lambda2, 0 < k &
-    conditions_9 (K + lambda2 *: M) sign factor mu v (k *: w)].
+  exists lambda2 k, [/\ 0 <= lambda2, 0 < k & flat_conditions_9 lambda2 v (k *: w)].
 Proof.
 move=> v_admissible [grows at_time] [t t_in rises].
 have [[a0 _ _] [derivative _] _ _] := at_time t t_in.

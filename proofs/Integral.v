@@ -88,7 +88,7 @@ Section Equivalence.
 Variable R : rcfType.
 Implicit Types (t mu : R) (v : nat -> R).
 
-(* -(S t'w + mu n'w) at a slip particle. *)
+(* -s at a slip particle. *)
 Definition slip_row s u t v j := - cone s (lambda2_of u t) (mu_of u t) v (particle s j).
 
 (* Behind the slip particles, the rows of gap, right and left of each z particle. *)
@@ -111,11 +111,14 @@ Definition integral_semantics q : semantics R :=
   | SystemProblem s u =>
       Semantics numbers (satisfies_9 s u) (same_motion s)
         (fun v j => variables_of s v (nth 0%N numbers j)) (slip_row s u)
-        (if u is Lambda2 _ _ then Some (conditions_9 s) else None) (eq (pencil_of s u)) None
+        (if u is Lambda2 _ _ then if flat s then Some (conditions_9 s) else None else None)
+        (eq (pencil_of s u)) None
   | ZeroProblem z u =>
       Semantics numbers (satisfies_9z z u) (same_motion (without_zero z))
         (fun v j => zero_variables_of z v (nth 0%N numbers j)) (z_row z u)
-        (if u is Lambda2 _ _ then Some (conditions_9z z) else None) (eq (zero_pencil z u)) None
+        (if u is Lambda2 _ _
+         then if flat (without_zero z) then Some (conditions_9z z) else None else None)
+        (eq (zero_pencil z u)) None
   | PlainProblem m =>
       Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0) (fun _ _ _ => 0) None
         (fun _ => False) (Some (solves_plain m))
@@ -345,28 +348,62 @@ Qed.
 Lemma normal_scaled f : along (normal k) k f =
   L * fraction R (factor_of p) * normal_to p f.
 Proof.
-case/and5P: ex_p => _ /andP[ex1 ex2] _ d0 /andP[n1 n2].
+case/and5P: ex_p => _ /andP[ex1 ex2] _ d0 /and4P[n1 n2 _ _].
 rewrite /along /= !scaled_fraction // /normal_to /fraction /= !toRM.
 have nz d : (0 <? d)%Z -> toR d != 0 :> R by move=> pos; rewrite gt_eqF // toR_gt0.
 move: (nz _ d0) (nz _ n1) (nz _ n2); move: (f _) (f _); do 7 move: (toR _) => ?.
 by move=> *; field; apply/and3P; split.
 Qed.
 
+(* (1 + c^2 mu^2) g *)
+Lemma turning_scaled mu : turning_at s mu k =
+  C * ((1 + (fraction R (factor_of p) * mu) ^+ 2) * fraction R (geometric_of p)).
+Proof.
+case/and5P: ex_p => _ _ _ d0 /and4P[_ _ /Z.eqb_spec/(congr1 (@toR R)) unit_normal ex_g].
+have [_ /lt0r_neq0 L0] := scales_gt0.
+have {}d0 : toR (factor_of p).2 != 0 :> R by rewrite gt_eqF // toR_gt0.
+rewrite /turning_at (scaled_fraction ex_g); move: unit_normal.
+rewrite /normal_of_length -[normal k]/(scaled_planar c (long_normal p)).
+move: (inner _ _) => nn; rewrite !toRM /fraction => unit_normal.
+have -> : toR nn = L ^+ 2 * (toR (factor_of p).1 / toR (factor_of p).2) ^+ 2.
+  apply: (mulIf (mulf_neq0 d0 d0)); rewrite [LHS]unit_normal.
+  by field.
+rewrite -[unit_length s]/(length_scale c); move: (toR _ / toR (geometric_of p).2) => g.
+by field; rewrite d0 L0.
+Qed.
+
 End Particle.
 
-(* The conditions (9). *)
-
-Lemma cone_scaled lambda2 mu v p : exact_particle c p ->
-  cone s lambda2 mu v (scaled_particle c p) = C * L * cone_of B lambda2 mu v p.
+Lemma flat_cone lambda2 mu v j : flat_body B -> (j < size (slipping B))%N ->
+  let p := slip_at B j in let w := force_of B lambda2 v in cone_of B lambda2 mu v p =
+  toR (sign p) * tangential p w + fraction R (factor_of p) * mu * normal_to p w.
 Proof.
-move=> ex_p; rewrite /cone tangent_scaled // normal_scaled // /cone_of.
-rewrite /tangential /normal_to !force_scaled /=.
-by ring.
+move=> /(all_nthP nobody) flat_each /flat_each/Z.eqb_spec flat_p p w.
+by rewrite /cone_of [fraction R (geometric_of _)]/fraction flat_p toR0 !mul0r mulr0 mul0r addr0.
 Qed.
+
+Lemma flat_scaled : flat s = flat_body B.
+Proof.
+rewrite /flat /flat_body all_map; case/and5P: ex => c0 _ _ _ /and3P[_ + _].
+elim: (slipping B) => //= p l IH /andP[ex_p /IH->]; congr (_ && _).
+have /and5P[_ _ _ _ /and4P[_ _ _ /andP[d0 /Z.eqb_spec eq]]] := ex_p.
+by apply/Z.eqb_spec/Z.eqb_spec; move: c0 d0 eq; clear; nia.
+Qed.
+
+(* The conditions (9). *)
 
 Lemma slip_rate_scaled v p : exact_particle c p ->
   slip_rate v (scaled_particle c p) = L * (toR (sign p) * tangential p v).
 Proof. by move=> ex_p; rewrite /slip_rate tangent_scaled // mulrCA. Qed.
+
+Lemma cone_scaled lambda2 mu v p : exact_particle c p ->
+  cone s lambda2 mu v (scaled_particle c p) = C * L * cone_of B lambda2 mu v p.
+Proof.
+move=> ex_p; rewrite /cone turning_scaled // slip_rate_scaled // tangent_scaled //.
+rewrite normal_scaled // /cone_of; move: (toR (sign p) * tangential p v) => slide.
+rewrite /tangential /normal_to !force_scaled /=.
+by ring.
+Qed.
 
 Lemma normal_force_scaled lambda2 v p : exact_particle c p ->
   along (normal (scaled_particle c p)) (scaled_particle c p) (force s lambda2 v) =
@@ -550,7 +587,8 @@ move=> wf some; split=> //=; rewrite ?numbers_scaled //.
 - move=> v j; rewrite size_iota => lt_j; rewrite nth_iota // -size_filter.
   exact: zero_rate_same.
 - by move=> t v j; rewrite size_iota => lt_j; apply: zero_row_same.
-- by rewrite /same_property; case: (u) => // *; apply: conditions_scaled.
+- rewrite /same_property flat_scaled; case: (u) => // *; case: (flat_body B) => // *.
+  exact: conditions_scaled.
 by move=> Q <-; exists c, (ZeroProblem z u); rewrite ex (negbTE some).
 Qed.
 
@@ -573,7 +611,7 @@ move=> wf; split=> //=; rewrite ?system_numbers /complementarity ?no_zero ?muln0
 - move=> v j; rewrite size_iota => lt_j; rewrite nth_iota // -size_filter.
   exact: slip_rate_same.
 - by move=> t v j; rewrite size_iota => lt_j; apply: slip_row_same.
-- rewrite /same_property; case: (u) => // _ _ lambda2 mu v.
+- rewrite /same_property flat_scaled; case: (u) => // _ _; case: (flat_body B) => // lambda2 mu v.
   rewrite conditions_scaled without_zero_scaled; exact: no_zero_particles.
 by move=> Q <-; exists c, (SystemProblem s u); rewrite ex.
 Qed.

@@ -9,9 +9,11 @@
 
    and for each slip particle
 
-       n'v = 0;   S t'v < 0 and S t'w + mu n'w = 0     in the support,
-                  S t'v = 0 and S t'w + mu n'w = 0     if biactive,
-                  S t'v = 0 and S t'w + mu n'w < 0     otherwise.
+       n'v = 0;   S t'v < 0 and s = 0     in the support,
+                  S t'v = 0 and s = 0     if biactive,
+                  S t'v = 0 and s < 0     otherwise,
+
+   with s = S t'w + mu n'w + (1 + c^2 mu^2) g S t'v.
 
    The normal n has the friction factor of the particle as its length (System.v).
 
@@ -24,7 +26,7 @@ From Mceip Require Import Base Integers Sums Tree Enclosed Condensation Pencil C
 
 (* [motion_claim] has the polynomials v as its components.  Reductions of v_d are those of its
    components; of w_d and of ((K + t M) v - w)_d, one for each degree of freedom; of n'v, S t'v and
-   S t'w + mu n'w, one for each slip particle. *)
+   s, one for each slip particle. *)
 Record lifted := Lifted {
   motion_claim : claim;
   forces : seq polynomial;
@@ -62,13 +64,15 @@ Definition along_poly (e : planar) p (f : nat -> polynomial) :=
 Definition normal_poly p := along_poly (normal p) p v_poly.
 Definition rate_poly p := scale_poly (sign_of p) (along_poly (tangent p) p v_poly).
 
-(* S t'w + mu n'w, times the denominator of mu *)
+(* s, times the denominator of mu *)
 Definition cone_poly p :=
+  let turned := scale_poly (turning s u p) (rate_poly p) in
   match u with
   | Mu => add_poly (scale_poly (sign_of p) (along_poly (tangent p) p w_poly))
                    (0 :: along_poly (normal p) p w_poly)
-  | Lambda2 m q => add_poly (scale_poly (q * sign_of p) (along_poly (tangent p) p w_poly))
-                            (scale_poly m (along_poly (normal p) p w_poly))
+  | Lambda2 m q =>
+      add_poly (add_poly (scale_poly (q * sign_of p) (along_poly (tangent p) p w_poly))
+                         (scale_poly m (along_poly (normal p) p w_poly))) turned
   end.
 
 Definition balanced d := shows_zero k (balance_poly d) (witness (balance_reductions l) d).
@@ -158,23 +162,26 @@ Lemma along_force e p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
 Proof. by move=> first second; rewrite /along !balance. Qed.
 
 Lemma cone_at p : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
-  eval (cone_poly u l p) t =
+  turns_exactly s u p -> eval (cone_poly s u l p) t =
   row_factor R u * cone s (lambda2_of u t) (mu_of u t) (v_at t) p.
 Proof.
-move=> first second; have c0 := row_factor_gt0 R wf; rewrite /cone !along_force //.
+move=> first second /(turningE (R := R) wf t) turning_t; have c0 := row_factor_gt0 R wf.
+rewrite /cone mulrDr mulrA -turning_t !along_force //.
 rewrite /cone_poly /row_factor /mu_of in c0 *; case: (u) c0 => [|m q] c0.
-  by rewrite eval_add eval_scale eval_shift !eval_along mul1r.
-rewrite eval_add !eval_scale !eval_along toRM -!/(w_at t _).
+  by rewrite eval_add eval_scale eval_shift !eval_along toR0 mul0r addr0 mul1r.
+rewrite !eval_add [eval (scale_poly (turning _ _ _) _) _]eval_scale rateE !eval_scale !eval_along.
+rewrite toRM -!/(w_at t _).
 rewrite -/(along (tangent p) p (w_at t)) -/(along (normal p) p (w_at t)).
 by move: (along _ _ _) (along _ _ _) => *; field; exact: lt0r_neq0.
 Qed.
 
 (* Signs of the cone line. *)
 Lemma cone_signs p w : first_dof p \in all_dofs -> second_dof p \in all_dofs ->
-  (shows_zero k (cone_poly u l p) w -> cone s (lambda2_of u t) (mu_of u t) (v_at t) p = 0) /\
-  (shows_negative k (cone_poly u l p) w -> cone s (lambda2_of u t) (mu_of u t) (v_at t) p < 0).
+  turns_exactly s u p ->
+  (shows_zero k (cone_poly s u l p) w -> cone s (lambda2_of u t) (mu_of u t) (v_at t) p = 0) /\
+  (shows_negative k (cone_poly s u l p) w -> cone s (lambda2_of u t) (mu_of u t) (v_at t) p < 0).
 Proof.
-move=> first second; have c0 := row_factor_gt0 R wf.
+move=> first second exact; have c0 := row_factor_gt0 R wf.
 split=> [/zero_at/eqP|/negative_at]; rewrite cone_at //; last by rewrite pmulr_rlt0.
 by rewrite mulf_eq0 gt_eqF //= => /eqP.
 Qed.
@@ -190,7 +197,8 @@ Lemma states_at j : (j < ns)%N -> particle_states s u l j -> let p := particle s
 Proof.
 move=> lt_j + p; rewrite /particle_states -/p.
 have [cone_zero cone_negative] :=
-  cone_signs (witness (cone_reductions l) j) (first_dof_in wf lt_j) (second_dof_in wf lt_j).
+  cone_signs (witness (cone_reductions l) j) (first_dof_in wf lt_j) (second_dof_in wf lt_j)
+    (particle_turns wf lt_j).
 case/and3P=> /zero_at; rewrite /normal_poly eval_along => nv rate reaction.
 split=> //; split=> state; move: rate reaction; rewrite ?state ?(negbTE state).
 - by move/negative_at; rewrite rateE.

@@ -67,7 +67,7 @@ Section Sound.
 
 Variables (R : rcfType) (s : system) (rad : system_radii).
 Notation z := (ZeroSystem s [::]).
-Hypothesis wf : zero_wellformed z (Lambda2 0 1).
+Hypothesis wf_mu : zero_wellformed z Mu.
 Hypothesis wf_rad : radii_wellformed s rad.
 
 Notation nf := (free_number s).
@@ -80,6 +80,7 @@ Notation radii := (Some (radii_of_parts s rad)).
 Notation n := (order Q0).
 Implicit Types (v x : nat -> R) (k m : nat -> nat -> R).
 
+Let wf : zero_wellformed z (Lambda2 0 1) := zero_wellformed_plain wf_mu.
 Let wf_s : system_wellformed s (Lambda2 0 1) := wf_system wf.
 
 (* Forces of a matrix. *)
@@ -160,7 +161,9 @@ have forceE d : force s t (zero_motion z x) d = forced (k_entry R s) (zero_motio
     t * forced (m_entry R s) (zero_motion z x) d by exact: forceE.
 rewrite order_parts /part_row => lt_i; case: ltnP => [lt_f|ge_f].
   by rewrite (zero_free_reaction wf).
-rewrite -{1}(subnKC ge_f) (slip_part wf) ?ltn_subLR //= /part_direction /direction /along /=.
+rewrite -{1}(subnKC ge_f) (slip_part wf) ?ltn_subLR //= flat_turning; last first.
+  by apply: flat_particle; rewrite ?ltn_subLR //; apply: (zero_wellformed_flat wf_mu).
+rewrite toR0 mul0r addr0 /part_direction /direction /along /=.
 rewrite !forceE !toRD !toRM.
 by move: (forced _ _ _) (forced _ _ _) (forced _ _ _) (forced _ _ _) => *; ring.
 Qed.

@@ -77,7 +77,7 @@ Fixpoint check_pieces families (low : point) (pieces : seq presence_piece) (boun
 
 Definition check_presence (pieces : seq presence_piece) (from bound : point) :=
   let families := box_expansions z radii w in
-  [&& zero_wellformed z (Lambda2 0 1), both_bounded z radii w, (0 <? bound.2)%Z &
+  [&& zero_wellformed z Mu, both_bounded z radii w, (0 <? bound.2)%Z &
       check_pieces families from pieces bound].
 
 End Checker.
@@ -446,7 +446,8 @@ End Body.
 Section Sound.
 
 Variables (R : rcfType) (z : zero_system).
-Hypothesis wf : zero_wellformed z (Lambda2 0 1).
+Hypothesis wf_mu : zero_wellformed z Mu.
+Let wf : zero_wellformed z (Lambda2 0 1) := zero_wellformed_plain wf_mu.
 Notation Q0 := (part_plain z).
 Notation Q1 := (part_friction z).
 Notation wfQ := (zero_pencil_wellformed z (Lambda2 0 1)).
@@ -481,7 +482,8 @@ Lemma motion_of_pencil r t mu (x : nat -> R) : halves_apart z r ->
      let y := reaction Q0 t x i + mu * reaction Q1 t x i in [/\ 0 <= x i, 0 <= y & x i * y = 0]) ->
   conditions_9z z t mu (zero_motion z x).
 Proof.
-move=> apart ag nonzero rows signs; apply: (zero_parts_motion wf) => //.
+move=> apart ag nonzero rows signs; apply: (zero_parts_motion wf) => // [i i_slip|].
+  by rewrite (flat_split_row (u := Lambda2 0 1)) //; [apply: signs | apply: zero_wellformed_flat].
 by apply: (apart_split ag apart) => i /signs[].
 Qed.
 

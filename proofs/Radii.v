@@ -63,6 +63,9 @@ Let ex_s : exact_system c B. Proof. by case/and5P: ex. Qed.
 Lemma radii_no_zero : with_zero B = [::].
 Proof. by case/and5P: ex => _ /nilP. Qed.
 
+Lemma radii_flat : zero_wellformed (ZeroSystem s [::]) Mu -> flat_body B.
+Proof. by move/zero_wellformed_flat; rewrite (flat_scaled ex_s). Qed.
+
 Variables (k m : nat -> nat -> R) (factor : nat -> R).
 Hypothesis member : given_member B radii k m factor.
 

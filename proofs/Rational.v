@@ -5,7 +5,9 @@
    its tangents and normals by another.  Any such integers serve by which all entries become
    integers ([scaled_entry], [exact]).  Free are the degrees of freedom of no particle that is in
    contact.  The tangent and the normal of a particle are the rows of its frame; the normal points
-   into the obstacle, and its length is the friction factor.
+   into the obstacle, and its length is the friction factor.  A particle that slips has the
+   geometric stiffness of its obstacle, 0 where this is flat; its integer is in the unit of the
+   stiffness.
 
    Integral.v proves that the integral problem means the same.
 
@@ -43,8 +45,9 @@ Definition reflected Q :=
   RationalPencil (given_order Q) (given_a Q) [seq [seq opposite e | e <- row] | row <- given_b Q]
     (given_free Q).
 
-(* The state before the event; a particle that slips has the sign S of its tangential reaction. *)
-Inductive contact := NotInContact | Sticking | Slipping of Z | ZeroInContact.
+(* The state before the event; a particle that slips has the sign S of its tangential reaction, and
+   the geometric stiffness g. *)
+Inductive contact := NotInContact | Sticking | Slipping of Z & rational | ZeroInContact.
 
 Record given_particle := GivenParticle {
   first_of : nat;
@@ -114,14 +117,18 @@ Section Particles.
 Variable B : rational_system.
 
 Definition sticks p := if contact_of p is Sticking then true else false.
-Definition slips p := if contact_of p is Slipping _ then true else false.
+Definition slips p := if contact_of p is Slipping _ _ then true else false.
 Definition zeroes p := if contact_of p is ZeroInContact then true else false.
 Definition in_contact p := if contact_of p is NotInContact then false else true.
 
-Definition sign p := if contact_of p is Slipping s then s else 0%Z.
+Definition sign p := if contact_of p is Slipping s _ then s else 0%Z.
+Definition geometric_of p := if contact_of p is Slipping _ g then g else (0, 1)%Z.
 
 Definition slipping := [seq p <- given_particles B | slips p].
 Definition with_zero := [seq p <- given_particles B | zeroes p].
+
+(* The obstacles are flat. *)
+Definition flat_body := all (fun p => (geometric_of p).1 =? 0)%Z slipping.
 
 Definition dofs_of (l : seq given_particle) :=
   [seq first_of p | p <- l] ++ [seq second_of p | p <- l].
@@ -155,12 +162,20 @@ Definition scaled_planar (e : rational * rational) : planar :=
 Definition exact_planar (e : rational * rational) :=
   exact (length_scale c) e.1 && exact (length_scale c) e.2.
 
+(* The normal has the length 1. *)
+Definition normal_of_length p := let n := scaled_planar (long_normal p) in
+  inner n n * ((factor_of p).2 * (factor_of p).2) =?
+  length_scale c * length_scale c * ((factor_of p).1 * (factor_of p).1).
+
 Definition exact_particle p :=
   [&& exact_planar (frame_tangent p), exact_planar (long_normal p), 0 <? (factor_of p).1,
-      0 <? (factor_of p).2, 0 <? (frame_normal p).1.2 & 0 <? (frame_normal p).2.2].
+      0 <? (factor_of p).2 &
+      [&& 0 <? (frame_normal p).1.2, 0 <? (frame_normal p).2.2, normal_of_length p &
+          exact (entry_scale c) (geometric_of p)]].
 
 Definition scaled_particle p := SlipParticle (first_of p) (second_of p)
-  (scaled_planar (frame_tangent p)) (scaled_planar (long_normal p)) (sign p).
+  (scaled_planar (frame_tangent p)) (scaled_planar (long_normal p)) (sign p)
+  (scaled_entry (entry_scale c) (geometric_of p)).
 
 Definition scaled_system B := System (degrees B)
   [seq scaled_row (entry_scale c) row | row <- given_stiffness B]

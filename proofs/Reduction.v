@@ -9,7 +9,9 @@
    - [reduction], [reduction_onto]: the conditions (9) without particles at zero reaction are
      equivalent to the complementarity eigenproblem (12)-(14), with the maps (10), (11) and the
      blocks (16); each slip particle may have a friction factor c_p of its own, then c_p mu stands
-     for mu in its line (spec/problem.md), and the rows of K1 get this factor;
+     for mu in its line (spec/problem.md), and the rows of K1 get this factor; and it may have a
+     geometric stiffness g_p, for which K* gets diag((1 + c_p^2 mu^2) g_p) (spec/curvature.md);
+   - [turned_reaction]: how the line of (9) gets this term;
    - [proposition1]: MCEIP-mu has a solution iff MCP-mu has one.  Hypotheses: K_ff is regular, and
      the f rows of K1 vanish.  (The paper asks less by its words and uses this much.)
    - [proposition2]: MCEIP-lambda2 has a solution iff MCP-lambda2 has one.  Hypothesis:
@@ -23,7 +25,7 @@
 
    Definite means x' K x > 0 for x != 0; K need not be symmetric.
 
-   Pages: spec/reduction.md (2.1 to 2.4), spec/solver.md (P1, P2, R1).
+   Pages: spec/reduction.md (2.1 to 2.4), spec/curvature.md (K.1), spec/solver.md (P1, P2, R1).
    Rust: crates/model/src/reduction/, crates/check/src/pencil.rs. *)
 
 From Mceip Require Import Base.
@@ -75,6 +77,17 @@ Lemma col_mx_zero m n (a : 'cV[R]_m) (b : 'cV[R]_n) : col_mx a b = 0 <-> a = 0 /
 Proof.
 by split=> [/eqP|[-> ->]]; rewrite ?col_mx0 // col_mx_eq0 => /andP[/eqP-> /eqP->].
 Qed.
+
+(* Where the obstacle is curved, a particle that moves by v_T along it has tangent and normal turned
+   by phi = kappa v_T; w'_T and w'_N are the rates of its reaction in these directions.  The line of
+   (9) for w' is that for w with the geometric stiffness kappa r_N of the reaction r at equilibrium,
+   which is on the cone.  m is the coefficient of friction of the particle. *)
+Theorem turned_reaction (S m kappa v_T w_T w_N r_T r_N : R) : r_T = - (S * m * r_N) ->
+  let phi := kappa * v_T in
+  let w'_T := w_T + phi * r_N in
+  let w'_N := w_N - phi * r_T in
+  S * w'_T + m * w'_N = S * w_T + m * w_N + (1 + m ^+ 2) * (kappa * r_N) * (S * v_T).
+Proof. by move=> -> /=; ring. Qed.
 
 (* The eigenproblem and its embedding in a complementarity problem. *)
 Section Eigenproblem.
@@ -221,8 +234,9 @@ Section Mechanics.
 Variables nf ns nd : nat.
 Notation all_dofs := (nf + (ns + (ns + nd)))%N.
 
-(* G = lambda^2 M + K, the signs S_p = sign(r_Tp), the friction mu and the friction factors. *)
-Variables (G : 'M[R]_all_dofs) (sign factor : 'I_ns -> R) (mu : R).
+(* G = lambda^2 M + K, the signs S_p = sign(r_Tp), the friction factors, the geometric stiffnesses,
+   which are 0 on flat obstacles, and the friction mu. *)
+Variables (G : 'M[R]_all_dofs) (sign factor geometric : 'I_ns -> R) (mu : R).
 Hypothesis sign_squared : forall i, sign i * sign i = 1.
 
 Notation v_f v := (usubmx v).
@@ -233,11 +247,15 @@ Notation v_d v := (dsubmx (dsubmx (dsubmx v))).
 Definition S : 'M[R]_ns := diag_mx (\row_i sign i).
 Definition C : 'M[R]_ns := diag_mx (\row_i factor i).
 
+Definition turning i := (1 + (factor i * mu) ^+ 2) * geometric i.
+
+Definition cone (v w : 'cV[R]_all_dofs) i :=
+  sign i * v_T w i 0 + mu * (factor i * v_N w i 0) + turning i * (sign i * v_T v i 0).
+
 Definition conditions_9 (v w : 'cV[R]_all_dofs) :=
   [/\ v != 0, G *m v = w, v_f w = 0, v_N v = 0 /\ v_d v = 0 &
-      forall i, [/\ sign i * v_T v i 0 <= 0,
-                    sign i * v_T w i 0 + mu * (factor i * v_N w i 0) <= 0 &
-                    (sign i * v_T w i 0 + mu * (factor i * v_N w i 0)) * (sign i * v_T v i 0) = 0]].
+      forall i, [/\ sign i * v_T v i 0 <= 0, cone v w i <= 0 &
+                    cone v w i * (sign i * v_T v i 0) = 0]].
 
 Notation G_ff := (ulsubmx G).
 Notation G_fT := (lsubmx (ursubmx G)).
@@ -249,7 +267,8 @@ Notation G_NT := (usubmx (lsubmx (dsubmx (drsubmx G)))).
 (* (15), (16); C is the identity without friction factors. *)
 Definition G0 := block_mx G_ff (- (G_fT *m S)) (- (S *m G_Tf)) (S *m G_TT *m S).
 Definition G1 := block_mx 0 0 (- (C *m G_Nf)) (C *m G_NT *m S) : 'M[R]_(nf + ns).
-Definition G_star := G0 + mu *: G1.
+Definition turning_matrix : 'M[R]_ns := diag_mx (\row_i turning i).
+Definition G_star := G0 + mu *: G1 + block_mx 0 0 0 turning_matrix.
 
 (* (10), read from right to left: v_f = x_f, v_T = -S x_T, v_N = 0, v_d = 0. *)
 Definition motion (x : 'cV[R]_(nf + ns)) : 'cV[R]_all_dofs :=
@@ -268,11 +287,16 @@ Proof. by rewrite mul_diag_mx !mxE. Qed.
 Lemma C_mul n (v : 'M[R]_(ns, n)) i j : (C *m v) i j = factor i * v i j.
 Proof. by rewrite mul_diag_mx !mxE. Qed.
 
-(* (11): the rows of G* x are w_f and -(S w_T + mu C w_N). *)
+Lemma turning_mul n (v : 'M[R]_(ns, n)) i j : (turning_matrix *m v) i j = turning i * v i j.
+Proof. by rewrite mul_diag_mx !mxE. Qed.
+
+(* (11): the rows of G* x are w_f and -(S w_T + mu C w_N) + diag(turning) x_s. *)
 Lemma reaction_rows x (w := G *m motion x) :
-  G_star *m x = col_mx (v_f w) (- (S *m v_T w + mu *: (C *m v_N w))).
+  G_star *m x = col_mx (v_f w) (- (S *m v_T w + mu *: (C *m v_N w)) + turning_matrix *m dsubmx x).
 Proof.
-rewrite -{1}[x]vsubmxK /w /G_star /G0 /G1 /motion.
+rewrite /G_star mulmxDl -{2}[x]vsubmxK mul_block_col !mul0mx !add0r.
+rewrite -[in RHS](addr0 (v_f w)) -add_col_mx; congr (_ + _).
+rewrite -{1}[x]vsubmxK /w /G0 /G1 /motion.
 set a := usubmx x; set b := dsubmx x.
 
 have blocks : G = block_mx G_ff (row_mx G_fT (rsubmx (ursubmx G)))
@@ -308,9 +332,9 @@ have vT i : sign i * v_T (motion x) i 0 = - dsubmx x i 0.
 have vN : v_N (motion x) = 0 by rewrite /motion !col_mxKd col_mxKu.
 have vd : v_d (motion x) = 0 by rewrite /motion !col_mxKd.
 have yf : usubmx (G_star *m x) = v_f (G *m motion x) by rewrite reaction_rows col_mxKu.
-have yT i : dsubmx (G_star *m x) i 0 =
-            - (sign i * v_T (G *m motion x) i 0 + mu * (factor i * v_N (G *m motion x) i 0)).
-  rewrite reaction_rows col_mxKd; set a := v_T _; set b := v_N _.
+have yT i : dsubmx (G_star *m x) i 0 = - cone (motion x) (G *m motion x) i.
+  rewrite /cone vT mulrN opprD opprK reaction_rows col_mxKd.
+  set a := v_T (G *m _); set b := v_N (G *m _); rewrite mxE turning_mul; congr (_ + _).
   by rewrite mxE [X in - X = _]mxE S_mul; congr (- (_ + _)); rewrite mxE C_mul.
 
 split.

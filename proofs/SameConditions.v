@@ -7,7 +7,8 @@
 
    Theorem [same_conditions]: v satisfies (9) of System.v if and only if it has coordinates that
    satisfy (9) of Reduction.v.  The friction factors are 1 there: the normal of a particle has its
-   factor as its length. *)
+   factor as its length; the geometric stiffnesses are those that give the same
+   (1 + c^2 mu^2) g. *)
 
 From Mceip Require Import Base Integers Sums Tree System.
 From Mceip Require Reduction.
@@ -52,6 +53,9 @@ Definition block_matrix : 'M[R]_(nf + (ns + (ns + nd))) :=
   \matrix_(i, j) along_basis (force s lambda2 (basis j)) i.
 
 Definition sign (j : 'I_ns) : R := toR (sign_of (particle s j)).
+
+Definition geometric (j : 'I_ns) : R :=
+  toR (unit_length s) ^+ 2 * turning_at s mu (particle s j) / (1 + mu ^+ 2).
 
 Lemma sign_squared j : sign j * sign j = 1.
 Proof. by have [<- _ _ _] := particle_parts R wf (ltn_ord j); rewrite expr2. Qed.
@@ -184,7 +188,7 @@ by case/eqP; apply/colP=> i; have /negbFE/eqP-> := none i; rewrite mxE.
 Qed.
 
 Lemma same_motion :
-  Reduction.conditions_9 block_matrix sign (fun=> 1) mu q (block_matrix *m q) <->
+  Reduction.conditions_9 block_matrix sign (fun=> 1) geometric mu q (block_matrix *m q) <->
   conditions_9 s lambda2 mu (motion s x).
 Proof.
 have [qf qt qn qr] := coordinates; have l0 := unit_length_gt0 R wf.
@@ -202,7 +206,10 @@ have rate (j : 'I_ns) : slip_rate (motion s x) (particle s j) =
   rewrite (slip_motion wf) // [usubmx _ _ _]mxE [dsubmx _ _ _]mxE qt.
   by rewrite mulrN mulrA sign_squared mul1r mulrN.
 have coneE (j : 'I_ns) : cone s lambda2 mu (motion s x) (particle s j) =
-    sign j * usubmx (dsubmx W) j 0 + mu * (1 * usubmx (dsubmx (dsubmx W)) j 0).
+    Reduction.cone sign (fun=> 1) geometric mu q W j.
+  have mu2 : 1 + mu ^+ 2 != 0 by rewrite gt_eqF // ltr_paddr ?ltr01 // sqr_ge0.
+  rewrite /cone /Reduction.cone; congr (_ + _); last first.
+    by rewrite rate /Reduction.turning /geometric; field.
   by rewrite !mxE !wE along_tangent_at along_normal_at mul1r.
 
 split=> [[nonzero _ free _ slips]|[nonzero _ free slips]].
@@ -227,7 +234,7 @@ Qed.
 End Motion.
 
 Theorem same_conditions v : conditions_9 s lambda2 mu v <-> exists q w,
-  Reduction.conditions_9 block_matrix sign (fun=> 1) mu q w /\
+  Reduction.conditions_9 block_matrix sign (fun=> 1) geometric mu q w /\
   forall d, d \in all_dofs -> v d = combined q d.
 Proof.
 split=> [sat|[q [w [sat same]]]].

@@ -279,7 +279,10 @@ Lemma wf : system_wellformed s Mu.
 Proof. by case/and5P: ok. Qed.
 
 Lemma wf01 : system_wellformed s (Lambda2 0 1).
-Proof. by move: wf; rewrite /system_wellformed. Qed.
+Proof. exact: wellformed_plain wf. Qed.
+
+Lemma flat_part j : (j < ns)%N -> geometric_stiffness (particle s j) = 0%Z.
+Proof. exact: flat_particle (wellformed_flat wf). Qed.
 
 Lemma L0 : 0 < L.
 Proof. exact: (unit_length_gt0 R wf). Qed.
@@ -336,7 +339,8 @@ Lemma part_reaction m q t x j : (j < ns)%N -> let p := part j in
      toR m * along (normal p) p (force s t (motion s x))).
 Proof.
 move=> lt_j p; rewrite system_form_reaction ?ltn_add2l // nth_cat size_map ltnNge leq_addr /= addKn.
-by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) // value_negative (value_cone_parts wf).
+rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z) // value_negative (value_cone_parts wf).
+by rewrite flat_turning ?flat_part // toR0 mul0r addr0.
 Qed.
 
 Lemma length_slip j : toR (length_of s (nf + j)) = 1 :> R.
@@ -346,7 +350,7 @@ Lemma slip_k x j : (j < ns)%N -> times KK x (nf + j)%N =
   - (toR (sign_of (part j)) * along (tangent (part j)) (part j) (force s 0 (motion s x))).
 Proof.
 move=> lt_j; rewrite times_k length_slip mul1r (slip_reaction wf) //.
-by rewrite /row_factor mul1r /cone /= mul0r addr0.
+by rewrite /row_factor mul1r /cone /= turning_at_flat ?flat_part // !mul0r !addr0.
 Qed.
 
 Lemma slip_m x j : (j < ns)%N -> times MM x (nf + j)%N =
@@ -360,6 +364,7 @@ Lemma slip_r x j : (j < ns)%N ->
   times RR x j = - along (normal (part j)) (part j) (force s 0 (motion s x)).
 Proof.
 move=> lt_j; rewrite times_r !(slip_reaction wf) // /row_factor /cone /=.
+rewrite !turning_at_flat ?flat_part // !mul0r !addr0.
 by move: (along _ _ _) (along _ _ _) => *; ring.
 Qed.
 

@@ -104,7 +104,7 @@ rewrite /moving_dofs /first_dofs /second_dofs !big_cat (big_map first_dof) (big_
 congr (_ + _).
   rewrite sum_positions; apply: sum_eq => k; rewrite mem_iota add0n => /= lt_k.
   by rewrite (motion_free wf_s) // mulrA [L * x k]mulrC -mulrA.
-rewrite -big_split /= (big_nth (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) /index_iota subn0.
+rewrite -big_split /= (big_nth (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z) /index_iota subn0.
 apply: sum_eq => j; rewrite mem_iota add0n => /= lt_j; rewrite -/(particle s j).
 have firstE : moved x (first_dof (particle s j)) =
     - (toR (sign_of (particle s j)) * toR (tangent (particle s j)).1) * x (nf + j)%N.
@@ -264,7 +264,8 @@ Qed.
 
 Theorem stability_sound mu : between mu lo hi -> stable_at B (mu : R).
 Proof.
-move=> bm; split; [exact: no_zero | exact: energy_definite |].
+move=> bm; split; [exact: no_zero | | exact: energy_definite |].
+  by rewrite -(flat_scaled exact_B); apply: wellformed_flat wf_s.
 have [form [slope [drift [sym pos def bel pow]]]] := stable_motions stable_s C0 bm.
 have C0 := C0; have LL0 := LL0; have cl : 0 < C * L by rewrite mulr_gt0.
 rewrite size_s in sym pos def.

@@ -13,11 +13,18 @@
        w = (K + lambda^2 M) v,    v != 0,    v = 0 at particles that stick,
        w = 0 at degrees of freedom of no particle in contact,
 
-   for each slip particle, with its friction factor c and its sign S,
+   for each slip particle, with its friction factor c, its sign S and its geometric stiffness g,
 
-       n'v = 0,    S t'v <= 0,    S t'w + c mu n'w <= 0,    (S t'w + c mu n'w) (S t'v) = 0,
+       n'v = 0,    S t'v <= 0,    s <= 0,    s S t'v = 0,
+       s = S t'w + c mu n'w + (1 + c^2 mu^2) g S t'v,
 
-   and for each particle with zero reaction the lines of [zero_reaction] (ZeroReaction.v).
+   where g is the curvature of the obstacle times the normal reaction at equilibrium, 0 where the
+   obstacle is flat; and for each particle with zero reaction the lines of [zero_reaction]
+   (ZeroReaction.v).
+
+   On curved obstacles (9) is about rates: a solution says that the motion linearised about the
+   equilibrium grows.  g belongs to the equilibrium at one friction, so statements about an interval
+   of friction, about all loads and about stability are of flat obstacles ([flat_body]).
 
    An eigenvalue problem is a pencil of which the value t may have either sign.  Statements speak of
    its solutions with t <= 0 as of those of the pencil (A, -B), whose value is -t: in windows,
@@ -36,7 +43,8 @@
    variable has a *rate* (x_i; how fast a particle slips or opens) and a *row* (y_i), of which one
    is 0.  [meaning] says for each kind of statement what it means in a real closed field.
 
-   Pages: spec/certificates.md, 5.1, 5.2, 5.15, 5.20; spec/zero-reaction.md, Z.1. *)
+   Pages: spec/certificates.md, 5.1, 5.2, 5.15, 5.20, 5.23; spec/zero-reaction.md, Z.1;
+   spec/curvature.md, K.1. *)
 
 From Mceip Require Import Base Integers Sums Tree Cover Pencil System Signs Support Families
   ZeroReaction PlainMcp Points Rational.
@@ -109,7 +117,8 @@ Record semantics := Semantics {
   same : (nat -> R) -> (nat -> R) -> Prop;
   rate : (nat -> R) -> nat -> R;
   row : R -> (nat -> R) -> nat -> R;
-  (* Of a system whose unknown is lambda^2: the motion satisfies (9) at lambda^2 and mu. *)
+  (* Of a system on flat obstacles whose unknown is lambda^2: the motion satisfies (9) at lambda^2
+     and mu. *)
   moves_at : option (R -> R -> (nat -> R) -> Prop);
   (* Pencils of which the solutions at infinity are those of the problem. *)
   has_pencil : pencil -> Prop;
@@ -172,9 +181,11 @@ Definition tangential p (f : nat -> R) :=
 Definition normal_to p (f : nat -> R) := toR (into_obstacle p) *
   (fraction (frame_normal p).1 * f (first_of p) + fraction (frame_normal p).2 * f (second_of p)).
 
-(* S t'w + c mu n'w *)
+(* S t'w + c mu n'w + (1 + c^2 mu^2) g S t'v *)
 Definition cone_of lambda2 mu v p := let w := force_of lambda2 v in
-  toR (sign p) * tangential p w + fraction (factor_of p) * mu * normal_to p w.
+  toR (sign p) * tangential p w + fraction (factor_of p) * mu * normal_to p w +
+  (1 + (fraction (factor_of p) * mu) ^+ 2) * fraction (geometric_of p) *
+  (toR (sign p) * tangential p v).
 
 Definition slip_at j := nth nobody (slipping B) j.
 Definition zero_at j := nth nobody (with_zero B) j.
@@ -205,8 +216,8 @@ Definition rates_under (f : nat -> R) mu v :=
         let cone := toR (sign p) * tangential p w + fraction (factor_of p) * mu * normal_to p w in
         [/\ normal_to p v = 0, slide <= 0, cone <= 0 & cone * slide = 0]].
 
-(* Of a body without particles of zero reaction, with friction. *)
-Definition one_motion_of_rates mu := [/\ with_zero B = [::], 0 < mu &
+(* Of a body on flat obstacles without particles of zero reaction, with friction. *)
+Definition one_motion_of_rates mu := [/\ with_zero B = [::], flat_body B, 0 < mu &
   forall f v v', rates_under f mu v -> rates_under f mu v' ->
     forall d, d \in iota 0 (degrees B) -> v d = v' d].
 
@@ -284,7 +295,7 @@ Definition definite_energy := exists m k,
         inner_product v (inertia_of w) = inner_product w (inertia_of v) /\
         inner_product v (force_of 0 w) = inner_product w (force_of 0 v)].
 
-Definition stable_at mu := [/\ with_zero B = [::], definite_energy &
+Definition stable_at mu := [/\ with_zero B = [::], flat_body B, definite_energy &
   exists form slope drift, loses_energy mu form slope drift].
 
 (* A member: symmetric matrices k and m within the radii, and a positive friction factor of each
@@ -301,7 +312,7 @@ Definition given_member radii (k m : nat -> nat -> R) (c : nat -> R) :=
         let range := nth ((0, 1), (0, 1))%Z (factor_ranges radii) j in
         0 < c j /\ fraction range.1 <= c j <= fraction range.2].
 
-(* (9) for a member of a body without particles of zero reaction. *)
+(* (9) for a member of a body on flat obstacles without particles of zero reaction. *)
 Definition member_moves (k m : nat -> nat -> R) (c : nat -> R) lambda2 mu v :=
   let w d := \sum_(e <- iota 0 (degrees B)) (k d e + lambda2 * m d e) * v e in
   [/\ exists2 d, d \in iota 0 (degrees B) & v d != 0,
@@ -328,7 +339,7 @@ Definition rate_of v j :=
   else nth 0 [:: - normal_to p v; if 0 < slide then slide else 0;
                  if slide < 0 then - slide else 0] (k %% 3).
 
-(* -(S t'w + c mu n'w); -n'w, t'w - c mu n'w, -t'w - c mu n'w *)
+(* -s of the slip particles; -n'w, t'w - c mu n'w, -t'w - c mu n'w *)
 Definition row_of t v j :=
   let k := (j - size (slipping B))%N in
   let p := zero_at (k %/ 3) in
@@ -340,7 +351,7 @@ Definition row_of t v j :=
 
 Definition system_semantics := Semantics (complementarity (GivenSystem B u)) system_solves
   (multiples (degrees B)) rate_of row_of
-  (if u is Lambda2 _ _ then Some motion_conditions else None)
+  (if u is Lambda2 _ _ then if flat_body B then Some motion_conditions else None else None)
   (fun Q => exists c q, scaled c (GivenSystem B u) = Some q /\ pencil_of_integral q = Q) None.
 
 End System.
@@ -530,10 +541,10 @@ Definition meaning p s :=
       forall mu, between mu from bound -> one_motion_of_rates B mu
   | GivenSystem B _, StableForFriction from bound =>
       forall mu, between mu from bound -> 0 < mu -> stable_at B mu
-  | GivenMembers B radii, NoneForFriction from bound => with_zero B = [::] /\
+  | GivenMembers B radii, NoneForFriction from bound => with_zero B = [::] /\ flat_body B /\
       forall k m c, given_member B radii k m c ->
       forall mu t v, between mu from bound -> 0 <= t -> member_moves B k m c t mu v -> False
-  | GivenMembers B radii, OneForEachFriction from bound => with_zero B = [::] /\
+  | GivenMembers B radii, OneForEachFriction from bound => with_zero B = [::] /\ flat_body B /\
       forall k m c, given_member B radii k m c ->
       forall mu, between mu from bound -> exists t v, 0 <= t /\ member_moves B k m c t mu v
   | GivenMembers _ _, _ => False

@@ -7,7 +7,9 @@
    n_p is the friction factor of the particle: n_p is c_p times the unit normal, so that mu n_p'w is
    c_p mu times the rate of the normal reaction.  All tangents and normals are multiplied by one
    positive integer, [unit_length], so that they are integer vectors.  All other degrees of freedom
-   do not move: those of particles that stick.
+   do not move: those of particles that stick.  The obstacle may be curved at a slip particle: then
+   it has a geometric stiffness g_p, curvature times normal reaction, in the unit of K; g_p = 0 on a
+   flat obstacle.
 
    [conditions_9] are the conditions (9) for such a system, for values of lambda^2 and mu:
 
@@ -15,9 +17,11 @@
 
    and for each slip particle
 
-       n'v = 0,    S t'v <= 0,    S t'w + mu n'w <= 0,    (S t'w + mu n'w) (S t'v) = 0.
+       n'v = 0,    S t'v <= 0,    s <= 0,    s S t'v = 0,
+       s = S t'w + mu n'w + (1 + c^2 mu^2) g S t'v.
 
-   The unknown is mu with lambda = 0, or lambda^2 with mu given as a fraction.
+   The unknown is mu with lambda = 0, where all obstacles are flat, or lambda^2 with mu given as a
+   fraction.
 
    Theorem [system_pencil]: x solves the pencil that is computed here if and only if the motion
    v(x) = sum_f x_d e_d - sum_p S_p x_p t_p of (10), times unit_length,
@@ -37,7 +41,8 @@
    a table ([table_row]).  They are in the order of spec/certificates.md: free degrees of freedom,
    then slip particles.  Particles in contact with zero reaction: ZeroReaction.v.
 
-   Page: spec/certificates.md, 5.1; spec/reduction.md.  Rust: crates/check/src/pencil.rs. *)
+   Pages: spec/certificates.md, 5.1; spec/reduction.md; spec/curvature.md.
+   Rust: crates/check/src/pencil.rs. *)
 
 From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Root RootLeaf Cover
   Places Number Condensation Pencil Whole Claim EnclosedClaim Complete.
@@ -51,7 +56,8 @@ Record slip_particle := SlipParticle {
   second_dof : nat;
   tangent : planar;
   normal : planar;
-  sign_of : Z }.
+  sign_of : Z;
+  geometric_stiffness : Z }.
 
 Record system := System {
   dofs : nat;
@@ -82,7 +88,7 @@ Section Checker.
 Variables (s : system) (u : unknown).
 Local Open Scope Z_scope.
 
-Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0).
+Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0 0).
 
 Definition free_number := size (free_dofs s).
 Definition first_dofs := [seq first_dof p | p <- particles s].
@@ -132,12 +138,34 @@ Definition force_form d : linear_form := (k_row d, if u is Lambda2 _ _ then m_ro
 Definition pressing_form (e : planar) p : linear_form :=
   (at_both k_row p e, if u is Lambda2 _ _ then at_both m_row p e else [::]).
 
-(* S t'w + mu n'w, times the denominator of mu *)
+(* a'b *)
+Definition inner (a b : planar) := a.1 * b.1 + a.2 * b.2.
+
+Definition unit_square := unit_length s * unit_length s.
+
+(* (1 + c^2 mu^2) g, times the denominator of mu, if this is an integer ([turns_exactly]); c is the
+   length of the normal in units of that of the tangent. *)
+Definition turning_numerator m q p :=
+  (q * q * unit_square + m * m * inner (normal p) (normal p)) * geometric_stiffness p.
+
+Definition turning p :=
+  if u is Lambda2 m q then turning_numerator m q p / (q * unit_square) else 0.
+
+Definition turns_exactly p :=
+  if u is Lambda2 m q then q * unit_square * turning p =? turning_numerator m q p
+  else geometric_stiffness p =? 0.
+
+(* a t'v *)
+Definition sliding_row a p : sparse_row :=
+  multiple a [:: (first_dof p, (tangent p).1); (second_dof p, (tangent p).2)].
+
+(* S t'w + mu n'w + (1 + c^2 mu^2) g S t'v, times the denominator of mu *)
 Definition cone_form p : linear_form :=
   match u with
   | Mu => (at_both k_row p (direction (sign_of p) 0 p),
            at_both k_row p (direction 0 1 p))
-  | Lambda2 m q => (at_both k_row p (direction (q * sign_of p) m p),
+  | Lambda2 m q => (at_both k_row p (direction (q * sign_of p) m p) ++
+                    sliding_row (turning p * sign_of p) p,
                     at_both m_row p (direction (q * sign_of p) m p))
   end.
 
@@ -154,13 +182,9 @@ Definition pencil_of : pencil :=
 Definition columns_in_range (rows : seq sparse_row) :=
   all (fun row => all (fun e => e.1 < dofs s)%N row) rows.
 
-(* a'b *)
-Definition inner (a b : planar) := a.1 * b.1 + a.2 * b.2.
-
 Definition particle_wellformed p :=
-  let unit_square := unit_length s * unit_length s in
   [&& sign_of p * sign_of p =? 1, inner (tangent p) (tangent p) =? unit_square,
-      0 <? inner (normal p) (normal p) & inner (tangent p) (normal p) =? 0].
+      0 <? inner (normal p) (normal p), inner (tangent p) (normal p) =? 0 & turns_exactly p].
 
 Definition system_wellformed :=
   [&& uniq moving_dofs, all (fun d => d < dofs s)%N moving_dofs,
@@ -179,6 +203,49 @@ Definition check_system_claim k := system_wellformed && check_claim pencil_of k.
 Definition check_system_enclosed k := system_wellformed && check_enclosed_claim pencil_of k.
 
 End Checker.
+
+Arguments turning : simpl never.
+
+(* All obstacles are flat. *)
+Definition flat s := all (fun p => geometric_stiffness p =? 0)%Z (particles s).
+
+Lemma flat_particle s j : flat s -> (j < size (particles s))%N ->
+  geometric_stiffness (particle s j) = 0%Z.
+Proof. by move=> /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z) each /each/Z.eqb_spec. Qed.
+
+Lemma flat_turning s u p : geometric_stiffness p = 0%Z -> turning s u p = 0%Z.
+Proof.
+rewrite /turning /turning_numerator => ->; case: u => // m q.
+by rewrite Z.mul_0_r Zdiv_0_l.
+Qed.
+
+Lemma flat_turns s u p : geometric_stiffness p = 0%Z -> turns_exactly s u p.
+Proof.
+move=> flat_p; rewrite /turns_exactly /turning_numerator flat_turning // flat_p.
+by case: u => // m q; rewrite !Z.mul_0_r.
+Qed.
+
+(* For mu = 0/1 and "1/0". *)
+Lemma plain_turning s p : (0 <? unit_length s)%Z ->
+  turning s (Lambda2 0 1) p = geometric_stiffness p.
+Proof.
+move=> l0; rewrite /turning /turning_numerator /unit_square.
+by rewrite !Z.mul_1_l Z.add_0_r Z.mul_comm Z.div_mul //; move: l0; clear; lia.
+Qed.
+
+Lemma friction_turning s p : turning s (Lambda2 1 0) p = 0%Z.
+Proof. exact: Zdiv_0_r. Qed.
+
+(* Where mu is the unknown, a wellformed system is flat. *)
+Lemma wellformed_flat s : system_wellformed s Mu -> flat s.
+Proof. by case/and5P=> _ _ + _ _; apply: sub_all => p /and5P[]. Qed.
+
+Lemma wellformed_plain s : system_wellformed s Mu -> system_wellformed s (Lambda2 0 1).
+Proof.
+case/and5P=> um moving particles rows /andP[l0 _]; apply/and5P; split; rewrite ?l0 //.
+apply: sub_all particles => p /and5P[sq tt nn tn /Z.eqb_spec flat_p].
+by apply/and5P; split=> //; apply: flat_turns.
+Qed.
 
 Section Forms.
 
@@ -287,12 +354,16 @@ Definition force lambda2 (v : nat -> R) d :=
 Definition along (e : planar) (p : slip_particle) (f : nat -> R) :=
   toR e.1 * f (first_dof p) + toR e.2 * f (second_dof p).
 
-(* S t'v and S t'w + mu n'w *)
+(* S t'v; (1 + c^2 mu^2) g; and S t'w + mu n'w + (1 + c^2 mu^2) g S t'v *)
 Definition slip_rate v p := toR (sign_of p) * along (tangent p) p v.
+
+Definition turning_at mu p : R :=
+  (1 + mu ^+ 2 * (toR (inner (normal p) (normal p)) / toR (unit_length s) ^+ 2)) *
+  toR (geometric_stiffness p).
 
 Definition cone lambda2 mu v p :=
   toR (sign_of p) * along (tangent p) p (force lambda2 v) +
-  mu * along (normal p) p (force lambda2 v).
+  mu * along (normal p) p (force lambda2 v) + turning_at mu p * slip_rate v p.
 
 Definition conditions_9 lambda2 mu (v : nat -> R) :=
   [/\ exists2 d, d \in all_dofs & v d != 0,
@@ -328,11 +399,11 @@ Hypothesis wf : system_wellformed s u.
 
 Lemma wf_parts :
   [/\ uniq (moving_dofs s), all (fun d => d < dofs s)%N (moving_dofs s),
-      forall j, (j < ns)%N -> particle_wellformed s (particle s j),
+      forall j, (j < ns)%N -> particle_wellformed s u (particle s j),
       columns_in_range s (stiffness s) && columns_in_range s (mass s) &
       (0 <? unit_length s)%Z].
 Proof.
-case/and5P: wf => ? ? /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) ? ? /andP[? ?].
+case/and5P: wf => ? ? /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z) ? ? /andP[? ?].
 by split.
 Qed.
 
@@ -359,10 +430,10 @@ by have [l|l] := ltnP d (size (mass s)); [apply/m/mem_nth | rewrite nth_default]
 Qed.
 
 Lemma first_particle j : (j < ns)%N -> first_dof (particle s j) = nth 0%N (first_dofs s) j.
-Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z). Qed.
 
 Lemma second_particle j : (j < ns)%N -> second_dof (particle s j) = nth 0%N (second_dofs s) j.
-Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z). Qed.
 
 Lemma first_in j : (j < ns)%N -> first_dof (particle s j) \in first_dofs s.
 Proof. by move=> lt_j; rewrite first_particle // mem_nth // size_map. Qed.
@@ -461,27 +532,55 @@ rewrite !row_value_both /along.
 by move: (toR _) (toR _) (row_value _ _) (row_value _ _) => *; ring.
 Qed.
 
-(* q S t'w + m n'w *)
+Lemma row_value_sliding a p x : row_value (sliding_row a p) x = toR a * along (tangent p) p x.
+Proof. by rewrite row_value_multiple /row_value !big_cons big_nil addr0. Qed.
+
+(* q S t'w + m n'w + q (1 + c^2 mu^2) g S t'v *)
 Lemma value_cone_parts m q p t x : form_value (cone_form s (Lambda2 m q) p) t x =
   toR q * (toR (sign_of p) * along (tangent p) p (force t x)) +
-  toR m * along (normal p) p (force t x).
+  toR m * along (normal p) p (force t x) + toR (turning s (Lambda2 m q) p) * slip_rate x p.
 Proof.
-rewrite /along !force_rows /form_value /= !row_value_both /along /direction !toRD !toRM /=.
+rewrite /form_value /cone_form /= row_value_cat row_value_sliding !row_value_both toRM.
+rewrite -mulrA -/(slip_rate x p) /along !force_rows /direction !toRD !toRM /=.
+move: (slip_rate _ _) (toR (turning _ _ _)) => *.
 move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
 by move: (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
 Qed.
 
-Lemma value_cone p t x : form_value (cone_form s u p) t x =
+Lemma unit_length_gt0 : 0 < toR (unit_length s) :> R.
+Proof. by have [_ _ _ _ l0] := wf_parts; rewrite toR_gt0. Qed.
+
+Lemma turningE p t : turns_exactly s u p ->
+  toR (turning s u p) = row_factor R u * turning_at (mu_of u t) p :> R.
+Proof.
+have := lt0r_neq0 row_factor_gt0; have := lt0r_neq0 unit_length_gt0.
+rewrite /turns_exactly /turning_numerator /turning_at /row_factor /mu_of.
+move: (inner (normal p) (normal p)) (geometric_stiffness p) => nn g.
+case: (u) => [|m q] l0 q0 /Z.eqb_spec; first by move->; rewrite toR0 !mulr0.
+move/(congr1 (@toR R)); rewrite /unit_square !toRM !toRD !toRM => eq.
+apply: (mulfI (mulf_neq0 q0 (mulf_neq0 l0 l0))); rewrite [LHS]eq.
+by field; apply/andP.
+Qed.
+
+Lemma value_cone p t x : turns_exactly s u p -> form_value (cone_form s u p) t x =
   row_factor R u * cone (lambda2_of u t) (mu_of u t) x p.
 Proof.
-have := row_factor_gt0; rewrite /row_factor /cone /lambda2_of /mu_of.
+move=> /(turningE t) turning_t; have := row_factor_gt0.
+rewrite /cone mulrDr mulrA -turning_t; rewrite /row_factor /lambda2_of /mu_of.
 case: (u) => [|m q] f0; last first.
   have q0 : toR q != 0 :> R by rewrite gt_eqF.
   by rewrite value_cone_parts; move: (along _ _ _) (along _ _ _) => *; field.
 rewrite mul1r /along !force_rows /form_value /= !row_value_both /along /direction !toRD !toRM.
-rewrite toR0 toR1 /=; move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
+rewrite toR0 toR1 mul0r addr0 /=.
+move: (row_value _ _) (row_value _ _) (row_value _ _) (row_value _ _) => *.
 by move: (toR _) (toR _) (toR _) (toR _) (toR _) => *; ring.
 Qed.
+
+Lemma turning_at_flat mu p : geometric_stiffness p = 0%Z -> turning_at mu p = 0.
+Proof. by rewrite /turning_at => ->; rewrite toR0 mulr0. Qed.
+
+Lemma particle_turns j : (j < ns)%N -> turns_exactly s u (particle s j).
+Proof. by move=> lt_j; have [_ _ /(_ _ lt_j)/and5P[]] := wf_parts. Qed.
 
 Lemma system_form_reaction t x i : (i < nf + ns)%N ->
   reaction Q t x i = form_value (nth no_form (system_forms s u) i) t (motion x).
@@ -504,7 +603,8 @@ Lemma slip_reaction t x j : (j < ns)%N ->
   - (row_factor R u * cone (lambda2_of u t) (mu_of u t) (motion x) (particle s j)).
 Proof.
 move=> lt_j; rewrite system_form_reaction ?ltn_add2l // nth_cat size_map ltnNge leq_addr /= addKn.
-by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z) // value_negative value_cone.
+rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z) // value_negative value_cone //.
+exact: particle_turns.
 Qed.
 
 Lemma free_variable i : (i \in free Q) = (i < nf)%N.
@@ -519,9 +619,6 @@ Qed.
 Lemma slip_variable_in j : (j < ns)%N -> (nf + j)%N \in slip Q.
 Proof. by move=> lt_j; rewrite mem_filter !mem_iota !add0n /= -leqNgt leq_addr ltn_add2l. Qed.
 
-Lemma unit_length_gt0 : 0 < toR (unit_length s) :> R.
-Proof. by have [_ _ _ _ l0] := wf_parts; rewrite toR_gt0. Qed.
-
 (* What a well-formed particle gives in R. *)
 Lemma particle_parts j : (j < ns)%N -> let p := particle s j in
   [/\ toR (sign_of p) ^+ 2 = 1 :> R,
@@ -530,7 +627,7 @@ Lemma particle_parts j : (j < ns)%N -> let p := particle s j in
       toR (tangent p).1 * toR (normal p).1 + toR (tangent p).2 * toR (normal p).2 = 0 :> R].
 Proof.
 move=> lt_j p; have [_ _ /(_ _ lt_j) + _ _] := wf_parts; rewrite -/p.
-case/and4P=> /Z.eqb_spec sq /Z.eqb_spec tt nn /Z.eqb_spec tn.
+case/and5P=> /Z.eqb_spec sq /Z.eqb_spec tt nn /Z.eqb_spec tn _.
 move: tt nn tn; rewrite -(@toR_gt0 R) /inner => tt nn tn.
 by rewrite !expr2 -!toRM -!toRD sq tt tn.
 Qed.

@@ -212,7 +212,9 @@ have zero : forall i, i \in iota 0 (order (pencil_of s Mu)) -> x i = 0.
   have [_ reversed] := slips _ lt_j.
   have reactionE : reaction (pencil_of s Mu) mu x (free_number s + j)%N =
       - cone s 0 mu v (particle s j).
-    by rewrite (slip_reaction wf) // /row_factor mul1r /cone /along !forceE.
+    rewrite (slip_reaction wf) // /row_factor mul1r /cone.
+    rewrite !turning_at_flat ?(flat_particle (wellformed_flat wf) lt_j) // !mul0r !addr0.
+    by rewrite /along !forceE.
   have slideE : slip_rate v (particle s j) = - (toR (unit_length s) ^+ 2 * x (free_number s + j)%N).
     rewrite -(slip_motion wf) // /slip_rate /along.
     by rewrite (same _ (first_dof_in wf lt_j)) (same _ (second_dof_in wf lt_j)).
@@ -239,6 +241,8 @@ have mu0 : 0 < mu.
   case/and5P: ok => _ _ _ _ /and5P[p0 q0 _ _ _]; case: W => le_mu _.
   have q0R : 0 < toR lo.2 :> R by rewrite toR_gt0.
   by rewrite -(pmulr_lgt0 _ q0R); apply: lt_le_trans le_mu; rewrite toR_gt0.
+have is_flat : flat_body B.
+  by rewrite -(flat_scaled ex); case/and5P: ok => /wellformed_flat.
 split=> // f v v' [stuck free slips] [stuck' free' slips'] d Hd.
 pose e i := v i - v' i.
 have forceE i : force_of B 0 e i = force_of B 0 v i - force_of B 0 v' i.
@@ -266,7 +270,7 @@ pose cone g := toR (sign q) * tangential q g + fraction R (factor_of q) * mu * n
 have -> : cone_of B 0 mu e q =
     cone (fun i => force_of B 0 v i - f i) - cone (fun i => force_of B 0 v' i - f i).
   have -> : cone_of B 0 mu e q = cone (fun i => force_of B 0 v i - force_of B 0 v' i).
-    by rewrite /cone_of /cone /tangential /normal_to !forceE.
+    by rewrite (flat_cone _ _ _ is_flat lt_j) /cone /tangential /normal_to !forceE.
   by rewrite /cone !tangentialE !normalE; move: (tangential _ _) => *; ring.
 rewrite -/(cone _) in b0 ab; rewrite -/(cone _) in b1 ab1.
 have split_product (a l x x' g y y' : R) : a * l * (x - x') * (l * (g * (y - y'))) =

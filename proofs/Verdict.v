@@ -435,11 +435,14 @@ by case: a => w tr /= ok mu t v bm t0; [apply: (zero_critical_absent ok t0 bm) |
   apply: (zero_anchored_critical_absent ok t0 bm)].
 Qed.
 
-Lemma moves_of_system p z : zero_system_of p = Some z ->
+Lemma absence_flat z from bound a : check_absence z from bound a -> flat (without_zero z).
+Proof. by case: a => w tr /= /and3P[/zero_wellformed_flat]. Qed.
+
+Lemma moves_of_system p z : zero_system_of p = Some z -> flat (without_zero z) ->
   exists2 moves, moves_at (sem p) = Some moves &
     forall t mu v, moves t mu v <-> conditions_9z z t mu v.
 Proof.
-case: p => //= [s [|? ?]|z' [|? ?]] // [<-]; first exists (conditions_9 (R := R) s) => // *.
+case: p => //= [s [|? ?]|z' [|? ?]] // [<-] /= ->; first exists (conditions_9 (R := R) s) => // *.
   by split=> /no_zero_particles.
 by exists (conditions_9z (R := R) z').
 Qed.
@@ -455,10 +458,11 @@ case: e =>
   exact: zero_cover_sound.
 - by case: p => [Q|sys u|z u|m] //; apply: infinity_sound.
 - rewrite /= /proved_if; case eq: (zero_system_of p) => [z|] //; case: ifP => // ok [<-] /=.
-  have [moves -> iff] := moves_of_system eq.
+  have [moves -> iff] := moves_of_system eq (absence_flat ok).
   by move=> mu t v bm t0 /iff; apply: (absence_sound ok).
 - rewrite /= /proved_if; case eq: (zero_system_of p) => [z|] //; case: ifP => // ok [<-] /=.
-  have [moves -> iff] := moves_of_system eq => mu bm.
+  have is_flat : flat (without_zero z) by case/and4P: ok => /zero_wellformed_flat.
+  have [moves -> iff] := moves_of_system eq is_flat => mu bm.
   have [t [v [t0 sat]]] := zero_presence_sound ok bm.
   by exists t, v; split=> //; apply/iff.
 - by case: p.
@@ -508,10 +512,11 @@ case: p => [Q|Q|B u|B radii|rows|B]; try exact: scaled_sound.
     by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
   by rewrite /= /proved_if; case: ifP => // ok [<-] mu bm _; apply: (stability_sound ok bm).
 - case: e => //= [from bound shares unit w tr|from bound shares unit w pieces]; rewrite /proved_if;
-    case: ifP => // ok [<-]; have /andP[ex _] := ok; split; rewrite ?(radii_no_zero ex) //;
-    move=> k m factor member mu.
-    by move=> t v; apply: (radii_absent ok member).
-  exact: (radii_present ok member).
+    case: ifP => // ok [<-]; have /andP[ex _] := ok; split; rewrite ?(radii_no_zero ex) //.
+    have /and3P[_ _ /and3P[/(radii_flat ex) is_flat _ _]] := (andP ok).2.
+    by split=> // k m factor member mu t v; apply: (radii_absent ok member).
+  have /andP[_ /and4P[/(radii_flat ex) is_flat _ _ _]] := (andP ok).2.
+  by split=> // k m factor member mu; apply: (radii_present ok member).
 case: e => //= mu amounts states w; rewrite /proved_if; case: ifP => // ok [<-].
 exact: equilibrium_sound ok.
 Qed.

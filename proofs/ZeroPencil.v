@@ -14,8 +14,9 @@
    Right and left may be raised by a common constant, so x is not determined by the motion.  x is
    *split* if of right and left of each particle at least one is 0.
 
-   For lambda^2 as the unknown the rows are affine in mu: with the pencils for mu = 0/1 and "1/0" as
-   *parts*, they are plain + mu friction ([split_row]).
+   For lambda^2 as the unknown the rows are polynomials in mu: with the pencils for mu = 0/1 and
+   "1/0" as *parts*, they are plain + mu friction + mu^2 c^2 g x ([split_row]); the last term is 0
+   where the obstacle is flat ([flat_split_row]).
 
    A region in which right and left of one particle both move holds no split x ([both_halves]); one
    in which at least one of them is at rest holds split solutions only ([halves_apart]).
@@ -160,11 +161,17 @@ Notation w_T := (along (tangent p) p w).
 
 Lemma value_right : form_value (cone_form s u (with_sign (-1) p)) t x =
   row_factor R u * (- w_T + mu * w_N).
-Proof. by rewrite (value_cone wf_system) /cone -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r. Qed.
+Proof.
+rewrite (value_cone wf_system); last exact: flat_turns.
+by rewrite /cone turning_at_flat // mul0r addr0 -[(-1)%Z]/(Z.opp 1) toRN toR1 mulN1r.
+Qed.
 
 Lemma value_left : form_value (cone_form s u (with_sign 1 p)) t x =
   row_factor R u * (w_T + mu * w_N).
-Proof. by rewrite (value_cone wf_system) /cone toR1 mul1r. Qed.
+Proof.
+rewrite (value_cone wf_system); last exact: flat_turns.
+by rewrite /cone turning_at_flat // mul0r addr0 toR1 mul1r.
+Qed.
 
 End Sides.
 
@@ -179,7 +186,7 @@ Lemma zero_particle_dofs j : (j < nz)%N ->
   first_dof (zero_particle z j) \in all_dofs /\ second_dof (zero_particle z j) \in all_dofs.
 Proof.
 have /and4P[_ _ in_range _] := wf => lt_j.
-have /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z)/(_ _ lt_j) := in_range.
+have /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z)/(_ _ lt_j) := in_range.
 by rewrite !mem_iota => /andP[].
 Qed.
 
@@ -255,10 +262,10 @@ exact: d12.
 Qed.
 
 Lemma zero_first j : (j < nz)%N -> first_dof (zero_particle z j) = nth 0%N (zero_firsts z) j.
-Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z). Qed.
 
 Lemma zero_second j : (j < nz)%N -> second_dof (zero_particle z j) = nth 0%N (zero_seconds z) j.
-Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z). Qed.
+Proof. by move=> lt_j; rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z). Qed.
 
 Lemma columns_first j : (j < nz)%N -> let p := zero_particle z j in
   zero_columns z (first_dof p) = three_columns z j (unit_normal p).1 (tangent p).1.
@@ -357,7 +364,7 @@ Lemma frame_parts j : (j < nz)%N -> let p := zero_particle z j in let n := unit_
       toR n.1 * toR (tangent p).1 + toR n.2 * toR (tangent p).2 = 0 :> R &
       exists2 c : R, 0 < c & toR (normal p).1 = c * toR n.1 /\ toR (normal p).2 = c * toR n.2].
 Proof.
-move=> lt_j p n; have /and4P[_ _ _ /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z)] := wf.
+move=> lt_j p n; have /and4P[_ _ _ /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z)] := wf.
 move/(_ _ lt_j); rewrite -/(zero_particle z j) -/p => /and3P[/Z.eqb_spec tt nn /Z.eqb_spec tn].
 have L0 : 0 < L := unit_length_gt0 R wf_s.
 have l2 : 0 < L ^+ 2 by rewrite exprn_gt0.
@@ -458,7 +465,7 @@ Lemma nth_slip_form u' j : (j < ns)%N ->
   nth no_form (variable_forms z u') (nf + j) = negative (cone_form s u' (particle s j)).
 Proof.
 move=> lt_j; rewrite nth_cat size_map ltnNge leq_addr /= addKn nth_cat size_map lt_j.
-by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z).
+by rewrite (nth_map (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z).
 Qed.
 
 Lemma slip_small j : (j < ns)%N -> (nf + j < nf + ns + 3 * nz)%N.
@@ -468,13 +475,14 @@ Lemma zero_slip_reaction t x j : (j < ns)%N -> reaction Q t x (nf + j)%N =
   - (row_factor R u * cone s (lambda2_of u t) (mu_of u t) (zero_motion x) (particle s j)).
 Proof.
 move=> lt_j; rewrite zero_reaction_form ?slip_small // nth_slip_form //.
-by rewrite value_negative (value_cone wf_s).
+by rewrite value_negative (value_cone wf_s) //; exact: (particle_turns wf_s).
 Qed.
 
 Lemma slip_part m q lambda2 x j : (j < ns)%N ->
   reaction (zero_pencil z (Lambda2 m q)) lambda2 x (nf + j)%N = let p := particle s j in
   - (toR q * (toR (sign_of p) * along (tangent p) p (w2 lambda2 x)) +
-     toR m * along (normal p) p (w2 lambda2 x)).
+     toR m * along (normal p) p (w2 lambda2 x) +
+     toR (turning s (Lambda2 m q) p) * slip_rate (zero_motion x) p).
 Proof.
 move=> lt_j; rewrite zero_reaction_form ?slip_small // nth_slip_form //.
 by rewrite value_negative (value_cone_parts wf_s).
@@ -527,7 +535,8 @@ Lemma zero_parts m q lambda2 x j : (j < nz)%N -> let p := zero_particle z j in
 Proof.
 move=> lt_j p w_T w_N Q'.
 have half S : form_value (cone_form s (Lambda2 m q) (with_sign S p)) lambda2 (zero_motion x) =
-    toR q * (toR S * w_T) + toR m * w_N by exact: (value_cone_parts wf_s).
+    toR q * (toR S * w_T) + toR m * w_N.
+  by rewrite (value_cone_parts wf_s) flat_turning // toR0 mul0r addr0.
 split.
 - rewrite -[gap z j]addn0 zero_row_form //= value_negative (value_pressing wf_s) /along !toRM.
   by rewrite -/p; move: (toR _) (toR _) (toR _) (w2 lambda2 x _) (w2 lambda2 x _) => *; ring.
@@ -537,15 +546,32 @@ have -> : left z j = (gap z j + 2)%N by rewrite addn2.
 by rewrite zero_row_form //= value_negative half toR1; ring.
 Qed.
 
+(* c^2 g x at a slip particle, in the unit of the rows. *)
+Definition turning_row x i : R :=
+  let p := particle s (i - nf) in
+  if (i < nf + ns)%N then toR (inner (normal p) (normal p) * geometric_stiffness p) * x i else 0.
+
 (* The rows at lambda^2 and mu; for the values of the unknown those of the pencil. *)
 Definition split_row lambda2 mu x i :=
+  reaction (part_plain z) lambda2 x i + mu * reaction (part_friction z) lambda2 x i +
+  mu ^+ 2 * turning_row x i.
+
+Lemma flat_split_row lambda2 mu x i : flat s -> i \in slip Q -> split_row lambda2 mu x i =
   reaction (part_plain z) lambda2 x i + mu * reaction (part_friction z) lambda2 x i.
+Proof.
+rewrite zero_slips mem_iota => is_flat /andP[ge_i _]; rewrite /split_row /turning_row.
+case: ifP => [lt_i|_]; last by rewrite mulr0 addr0.
+by rewrite flat_particle ?ltn_subLR // Z.mul_0_r toR0 mul0r mulr0 addr0.
+Qed.
 
 Lemma slip_split_row lambda2 mu x j : (j < ns)%N ->
   split_row lambda2 mu x (nf + j)%N = - cone s lambda2 mu (zero_motion x) (particle s j).
 Proof.
-move=> lt_j; rewrite /split_row !slip_part //= toR0 toR1 /cone.
-by move: (along _ _ _) (along _ _ _) => *; ring.
+move=> lt_j; have [_ _ _ _ l0] := wf_parts wf_s.
+rewrite /split_row !slip_part //= plain_turning // friction_turning toR0 toR1 /cone.
+rewrite /turning_row ltn_add2l lt_j addKn zero_slip_rate // /turning_at toRM.
+move: (along _ _ _) (along _ _ _) (toR (inner _ _)) (toR (geometric_stiffness _)) => w_T w_N nn g.
+by move: (toR (sign_of _)) (lt0r_neq0 (unit_length_gt0 R wf_s)) => S L0; field.
 Qed.
 
 Lemma zero_split_rows lambda2 mu x j : (j < nz)%N -> let p := zero_particle z j in
@@ -556,6 +582,10 @@ Lemma zero_split_rows lambda2 mu x j : (j < nz)%N -> let p := zero_particle z j 
       split_row lambda2 mu x (left z j) = - w_T - mu * w_N].
 Proof.
 move=> lt_j p w_T w_N; rewrite /split_row /part_plain /part_friction.
+have no_turning k : turning_row x (gap z j + k) = 0.
+  by rewrite /turning_row ifF //; apply/negbTE; rewrite -leqNgt /gap -!addnA !leq_add2l leq_addr.
+move: (no_turning 0%N) (no_turning 1%N) (no_turning 2%N); rewrite addn0 addn1 addn2 => -> -> ->.
+rewrite !mulr0 !addr0.
 have [-> -> ->] := zero_parts 0 1 lambda2 x lt_j.
 have [-> -> ->] := zero_parts 1 0 lambda2 x lt_j.
 by rewrite -/p -/w_T -/w_N toR0 toR1; split; ring.

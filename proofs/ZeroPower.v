@@ -2,11 +2,12 @@
 
    For every motion v with (9) and its forces w, in unit tangents and unit normals,
 
-       v'w  =  mu sum_s x c w_N  +  mu sum_z |v_T| c w_N,        x = -S v_T,
+       v'w  =  mu sum_s x c w_N  +  mu sum_z |v_T| c w_N  -  sum_s (1 + c^2 mu^2) g x^2,
 
-   c the friction factor of the particle ([power_identity]).  The sum over the z particles is at
-   most 0.  So if v'w > 0, as it is if K + lambda^2 M is positive definite, then mu > 0 and some
-   slip particle slips while its pressure falls: x > 0 and w_N > 0
+   with x = -S v_T, c the friction factor of the particle and g its geometric stiffness
+   ([power_identity]).  The sum over the z particles is at most 0, and the last one is 0 where all
+   obstacles are flat.  There, if v'w > 0, as it is if K + lambda^2 M is positive definite, then
+   mu > 0 and some slip particle slips while its pressure falls: x > 0 and w_N > 0
    ([slips_while_pressure_falls]).  A system without slip particles has no solution.
 
    Page: spec/zero-reaction.md, Z.2. *)
@@ -23,7 +24,7 @@ Notation s := (without_zero z).
 Notation ns := (size (particles s)).
 Notation nz := (size (zero_particles z)).
 Notation all_dofs := (iota 0 (dofs s)).
-Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z.
+Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z.
 
 (* v'w with w = (K + lambda^2 M) v *)
 Definition power lambda2 v := \sum_(d <- all_dofs) v d * force s lambda2 v d.
@@ -109,19 +110,20 @@ Theorem power_identity lambda2 mu v : conditions_9z z lambda2 mu v ->
   let w := force s lambda2 v in
   toR (unit_length s) ^+ 2 * power lambda2 v =
   mu * (\sum_(p <- particles s) - slip_rate v p * along (normal p) p w +
-        \sum_(p <- zero_particles z) `|along (tangent p) p v| * along (normal p) p w).
+        \sum_(p <- zero_particles z) `|along (tangent p) p v| * along (normal p) p w) -
+  \sum_(p <- particles s) turning_at s mu p * slip_rate v p ^+ 2.
 Proof.
 move=> cond w; have [_ _ _ slips _] := cond; have [wfs _ _ _] := and4P wf.
 have l0 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wfs).
-rewrite (power_particles cond) -/w !mulrDr !mulr_sumr; congr (_ + _).
-  rewrite !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
+rewrite (power_particles cond) -/w !mulrDr !mulr_sumr addrAC; congr (_ + _).
+  rewrite -sumrB !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
   rewrite -!/(particle s j); set p := particle s j.
   have [nv _ _ product] := slips j lt_j; have [sq tt nn tn] := particle_parts R wfs lt_j.
   rewrite -/p in nv product sq tt nn tn.
   rewrite /power_at (perpendicular tt l0 nn tn); last first.
     by move: nv; rewrite /along => ->; rewrite mul0r.
   rewrite -/(along (tangent p) p v) -/(along (tangent p) p w) -[LHS]mul1r -sq.
-  rewrite -[RHS](addr0) -product /cone /slip_rate -/w.
+  rewrite -[RHS](addr0) -product /cone /slip_rate -/w; move: (turning_at _ _ _) => turning.
   by move: (along _ _ _) (along _ _ _) (along _ _ _) (toR _) => *; ring.
 
 rewrite !(big_nth nobody) !big_nat; apply: eq_bigr => j /= lt_j.
@@ -129,15 +131,18 @@ exact: zero_power.
 Qed.
 
 (* v'w > 0 holds for every v != 0 if K + lambda^2 M is positive definite. *)
-Theorem slips_while_pressure_falls lambda2 mu v : conditions_9z z lambda2 mu v -> 0 <= mu ->
-  0 < power lambda2 v ->
+Theorem slips_while_pressure_falls lambda2 mu v : flat s -> conditions_9z z lambda2 mu v ->
+  0 <= mu -> 0 < power lambda2 v ->
   [/\ 0 < mu & exists2 j, (j < ns)%N & let p := particle s j in
      slip_rate v p < 0 /\ 0 < along (normal p) p (force s lambda2 v)].
 Proof.
-move=> cond mu0 positive; have [_ _ _ slips zeros] := cond; have [wfs _ _ _] := and4P wf.
+move=> is_flat cond mu0 positive; have [_ _ _ slips zeros] := cond; have [wfs _ _ _] := and4P wf.
 have l0 : 0 < toR (unit_length s) ^+ 2 :> R by rewrite exprn_gt0 // (unit_length_gt0 R wfs).
 
 have := mulr_gt0 l0 positive; rewrite (power_identity cond).
+rewrite [X in _ - X](_ : _ = 0) ?subr0; last first.
+  rewrite (big_nth nobody) big_nat big1 // => j /= lt_j.
+  by rewrite turning_at_flat ?mul0r // (flat_particle is_flat lt_j).
 set slip_part := \sum_(p <- particles s) _; set zero_part := \sum_(p <- zero_particles z) _.
 have zero_le : zero_part <= 0.
   rewrite /zero_part (big_nth nobody) big_nat -oppr_ge0 -sumrN; apply: sumr_ge0 => j /= lt_j.

@@ -29,8 +29,8 @@
 
 From Mceip Require Import Base Integers Sums Tree Enclosed Condensation Pencil Claim System Lifted.
 
-(* The degrees of freedom of z particles are not free in [without_zero].  The sign of a z particle
-   is not used. *)
+(* The degrees of freedom of z particles are not free in [without_zero].  The sign and the geometric
+   stiffness of a z particle are not used. *)
 Record zero_system := ZeroSystem {
   without_zero : system;
   zero_particles : seq slip_particle }.
@@ -53,7 +53,7 @@ Notation l := (lifted_part c).
 Notation k := (motion_claim l).
 Notation ns := (size (particles s)).
 Notation nz := (size (zero_particles z)).
-Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z.
+Notation nobody := (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z.
 
 Definition zero_particle j := nth nobody (zero_particles z) j.
 
@@ -78,14 +78,14 @@ Definition zero_wellformed :=
       all frame_wellformed (zero_particles z)].
 
 Definition with_sign sign p :=
-  SlipParticle (first_dof p) (second_dof p) (tangent p) (normal p) sign.
+  SlipParticle (first_dof p) (second_dof p) (tangent p) (normal p) sign 0.
 
 Definition sliding_poly p := along_poly (tangent p) p (v_poly l).
 Definition pressure_poly p := along_poly (normal p) p (w_poly l).
 
 (* -t'w + mu n'w and t'w + mu n'w, times the denominator of mu *)
-Definition right_poly p := cone_poly u l (with_sign (-1) p).
-Definition left_poly p := cone_poly u l (with_sign 1 p).
+Definition right_poly p := cone_poly s u l (with_sign (-1) p).
+Definition left_poly p := cone_poly s u l (with_sign 1 p).
 
 (* The row of variable i is 0 or negative. *)
 Definition row_state i g w :=
@@ -116,6 +116,13 @@ Definition check_zero :=
       has (in_support s l) (iota 0 ns) || has (dof_moves l) (iota 0 (dofs s))].
 
 End Checker.
+
+(* Where mu is the unknown, all obstacles are flat. *)
+Lemma zero_wellformed_flat z : zero_wellformed z Mu -> flat (without_zero z).
+Proof. by case/and4P=> /wellformed_flat. Qed.
+
+Lemma zero_wellformed_plain z : zero_wellformed z Mu -> zero_wellformed z (Lambda2 0 1).
+Proof. by case/and4P=> /wellformed_plain ? ? ? ?; apply/and4P; split. Qed.
 
 Section Statements.
 
@@ -292,7 +299,7 @@ Lemma zero_dofs_in j : (j < nz)%N ->
   first_dof (zero_particle z j) \in all_dofs /\ second_dof (zero_particle z j) \in all_dofs.
 Proof.
 have [[/and4P[_ _ in_range _] _ _] _] := zero_parts => lt_j.
-have /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0)%Z)/(_ _ lt_j) := in_range.
+have /(all_nthP (SlipParticle 0 0 (0, 0) (0, 0) 0 0)%Z)/(_ _ lt_j) := in_range.
 by rewrite !mem_iota => /andP[].
 Qed.
 
@@ -334,9 +341,10 @@ have alongE e : eval (along_poly e p (v_poly l)) t = along e p (v_at l t).
   by rewrite eval_along.
 have along_w e : eval (along_poly e p (w_poly l)) t = along e p w.
   by rewrite eval_along /w (along_force wf bal root_t).
-have coneE sign : eval (cone_poly u l (with_sign sign p)) t =
+have coneE sign : eval (cone_poly s u l (with_sign sign p)) t =
                   row_factor R u * (toR sign * w_T + mu * w_N).
-  by rewrite (cone_at wf bal root_t).
+  rewrite (cone_at wf bal root_t) //; last exact: flat_turns.
+  by rewrite /cone turning_at_flat // mul0r addr0.
 have f0 := row_factor_gt0 R wf.
 have negative := negative_at interval at_ tb root_t.
 have positive := positive_at interval at_ tb root_t.

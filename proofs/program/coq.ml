@@ -79,7 +79,7 @@ let planar = pair integer integer
 
 let particle p =
   term ["SlipParticle"; number p.first_dof; number p.second_dof; planar p.tangent;
-        planar p.normal; integer p.sign_of]
+        planar p.normal; integer p.sign_of; integer p.geometric_stiffness]
 
 let system s =
   term ["System"; number s.dofs; sparse_rows s.stiffness; sparse_rows s.mass;

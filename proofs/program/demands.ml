@@ -1,5 +1,5 @@
 (* What the formats demand of a system or a body and no statement needs: symmetric matrices,
-   reactions that agree with the states, particles apart (spec/formats.md).
+   reactions that agree with the states and with the curvature, particles apart (spec/formats.md).
 
    Not trusted: these functions refuse, and do nothing else. *)
 
@@ -28,6 +28,16 @@ let check_reaction mu state sign item =
                 (match bound with Some b -> not (Q.equal (Q.abs rt) b) | None -> false)
     | _ -> Q.sign rn >= 0 || (match bound with Some b -> Q.geq (Q.abs rt) b | None -> false) in
   if bad then malformed "a reaction against (7), the state or the sign"
+
+(* Of a curved obstacle: a slip particle that is pressed on, as its reaction says, if it has one. *)
+let check_curvature state normal reaction =
+  if state <> "slip" then malformed "curvature: for slip only";
+  if Q.sign normal >= 0 then malformed "curvature: normal_reaction must be negative";
+  if reaction <> Null then begin
+    let field = fields ["normal"; "tangential"] [] reaction in
+    if not (Q.equal normal (rational (field "normal"))) then
+      malformed "curvature: normal_reaction is not that of the reaction"
+  end
 
 let apart dofs =
   if List.length (List.sort_uniq compare dofs) < List.length dofs then

@@ -1178,7 +1178,7 @@ let lifted_of (system : Kernel.system) unknown factor (l : lifted) =
         reduce (Kernel.balance_poly system unknown bare d));
     normal_reductions = particles (Kernel.normal_poly bare);
     rate_reductions = particles (Kernel.rate_poly bare);
-    cone_reductions = particles (Kernel.cone_poly unknown bare) }
+    cone_reductions = particles (Kernel.cone_poly system unknown bare) }
 
 let rec add_polynomials p q = match p, q with
   | a :: p, b :: q -> Q.add a b :: add_polynomials p q
@@ -1208,8 +1208,8 @@ let zero_of (system : Kernel.zero_system) unknown factor (l : lifted) =
     opening_reductions = particles (Kernel.normal_poly lifted_part);
     pressure_reductions = particles (Kernel.pressure_poly bare);
     sliding_reductions = particles (Kernel.sliding_poly bare);
-    right_reductions = particles (Kernel.right_poly unknown bare);
-    left_reductions = particles (Kernel.left_poly unknown bare) }
+    right_reductions = particles (Kernel.right_poly system unknown bare);
+    left_reductions = particles (Kernel.left_poly system unknown bare) }
 
 (* The motion of x: v = -S t x of a slip particle, v = -n x_gap + t (x_right - x_left) of one with
    zero reaction, n the unit normal. *)

@@ -514,12 +514,12 @@ let zero_parts (problem : Scaling.t) (certificate : Certificate.t) zero unknown 
     else of_zero_constant q zero unknown in
   parts certificate (fun () -> zero_claims problem certificate zero unknown) cover
 
-(* The context of a statement about an interval of mu; rejects a problem that has none. *)
 (* Radii are refused by name directly after the digest. *)
 let require_one_body (problem : Scaling.t) digest =
   if digest = problem.digest && problem.members <> None then
     raise (Rejected "radii: this kind of certificate speaks of one body")
 
+(* The context of a statement about an interval of mu; rejects a problem that has none. *)
 let context_of_friction (problem : Scaling.t) digest condensation (low, high) tail =
   if digest <> problem.digest then
     raise (Rejected ("the digest of the problem is " ^ problem.digest));
@@ -529,6 +529,8 @@ let context_of_friction (problem : Scaling.t) digest condensation (low, high) ta
       raise (Rejected "the unknown is not the problem's")
     | _ -> raise (Rejected "a mechanical system was expected") in
   let system = zero.without_zero in
+  if not (Kernel.flat system) then
+    raise (Rejected "curved: this kind of certificate speaks of flat obstacles");
   if Q.sign high <= 0 then raise (Rejected "the interval of friction ends at zero or below");
   if Q.sign low < 0 || Q.geq low high then
     raise (Rejected "the interval of friction is empty, a point, or begins below zero");

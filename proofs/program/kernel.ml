@@ -2278,7 +2278,7 @@ let left_open tr lo hi =
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
 type slip_particle = { first_dof : int; second_dof : int; tangent : planar; normal : planar;
-                       sign_of : Big_int_Z.big_int }
+                       sign_of : Big_int_Z.big_int; geometric_stiffness : Big_int_Z.big_int }
 
 type system = { dofs : int; stiffness : sparse_row list; mass : sparse_row list;
                 free_dofs : int list; particles : slip_particle list;
@@ -2329,7 +2329,8 @@ let moving_dofs s =
 let particle s j =
   nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
     Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int, Big_int_Z.zero_big_int);
-    sign_of = Big_int_Z.zero_big_int } s.particles j
+    sign_of = Big_int_Z.zero_big_int; geometric_stiffness = Big_int_Z.zero_big_int }
+    s.particles j
 
 (** val k_row : system -> int -> (int * Big_int_Z.big_int) list **)
 
@@ -2407,6 +2408,50 @@ let pressing_form s u e p =
                              | Mu -> []
                              | Lambda2 (_, _) -> at_both (m_row s) p e))
 
+(** val inner : planar -> planar -> Big_int_Z.big_int **)
+
+let inner a b =
+  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (fst a) (fst b))
+    (Big_int_Z.mult_big_int (snd a) (snd b))
+
+(** val unit_square : system -> Big_int_Z.big_int **)
+
+let unit_square s =
+  Big_int_Z.mult_big_int s.unit_length s.unit_length
+
+(** val turning_numerator :
+    system -> Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> Big_int_Z.big_int **)
+
+let turning_numerator s m q p =
+  Big_int_Z.mult_big_int
+    (Big_int_Z.add_big_int
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int q q) (unit_square s))
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int m m) (inner p.normal p.normal)))
+    p.geometric_stiffness
+
+(** val turning : system -> unknown -> slip_particle -> Big_int_Z.big_int **)
+
+let turning s u p =
+  match u with
+  | Mu -> Big_int_Z.zero_big_int
+  | Lambda2 (m, q) ->
+    Z.div (turning_numerator s m q p) (Big_int_Z.mult_big_int q (unit_square s))
+
+(** val turns_exactly : system -> unknown -> slip_particle -> bool **)
+
+let turns_exactly s u p =
+  match u with
+  | Mu -> Big_int_Z.eq_big_int p.geometric_stiffness Big_int_Z.zero_big_int
+  | Lambda2 (m, q) ->
+    Big_int_Z.eq_big_int
+      (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int q (unit_square s)) (turning s u p))
+      (turning_numerator s m q p)
+
+(** val sliding_row : Big_int_Z.big_int -> slip_particle -> sparse_row **)
+
+let sliding_row a p =
+  multiple a ((p.first_dof, (fst p.tangent)) :: ((p.second_dof, (snd p.tangent)) :: []))
+
 (** val cone_form : system -> unknown -> slip_particle -> linear_form **)
 
 let cone_form s u p =
@@ -2415,7 +2460,8 @@ let cone_form s u p =
     ((at_both (k_row s) p (direction p.sign_of Big_int_Z.zero_big_int p)),
       (at_both (k_row s) p (direction Big_int_Z.zero_big_int Big_int_Z.unit_big_int p)))
   | Lambda2 (m, q) ->
-    ((at_both (k_row s) p (direction (Big_int_Z.mult_big_int q p.sign_of) m p)),
+    ((cat (at_both (k_row s) p (direction (Big_int_Z.mult_big_int q p.sign_of) m p))
+       (sliding_row (Big_int_Z.mult_big_int (turning s u p) p.sign_of) p)),
       (at_both (m_row s) p (direction (Big_int_Z.mult_big_int q p.sign_of) m p)))
 
 (** val negative : linear_form -> linear_form **)
@@ -2441,33 +2487,32 @@ let pencil_of s u =
 let columns_in_range s rows =
   all (fun row -> all (fun e -> leq (Natural.succ (fst e)) s.dofs) row) rows
 
-(** val inner : planar -> planar -> Big_int_Z.big_int **)
+(** val particle_wellformed : system -> unknown -> slip_particle -> bool **)
 
-let inner a b =
-  Big_int_Z.add_big_int (Big_int_Z.mult_big_int (fst a) (fst b))
-    (Big_int_Z.mult_big_int (snd a) (snd b))
-
-(** val particle_wellformed : system -> slip_particle -> bool **)
-
-let particle_wellformed s p =
-  let unit_square = Big_int_Z.mult_big_int s.unit_length s.unit_length in
+let particle_wellformed s u p =
   (&&)
     (Big_int_Z.eq_big_int (Big_int_Z.mult_big_int p.sign_of p.sign_of) Big_int_Z.unit_big_int)
-    ((&&) (Big_int_Z.eq_big_int (inner p.tangent p.tangent) unit_square)
+    ((&&) (Big_int_Z.eq_big_int (inner p.tangent p.tangent) (unit_square s))
       ((&&) (Z.ltb Big_int_Z.zero_big_int (inner p.normal p.normal))
-        (Big_int_Z.eq_big_int (inner p.tangent p.normal) Big_int_Z.zero_big_int)))
+        ((&&) (Big_int_Z.eq_big_int (inner p.tangent p.normal) Big_int_Z.zero_big_int)
+          (turns_exactly s u p))))
 
 (** val system_wellformed : system -> unknown -> bool **)
 
 let system_wellformed s u =
   (&&) (uniq nat_eqType (Obj.magic moving_dofs s))
     ((&&) (all (fun d -> leq (Natural.succ d) s.dofs) (moving_dofs s))
-      ((&&) (all (particle_wellformed s) s.particles)
+      ((&&) (all (particle_wellformed s u) s.particles)
         ((&&) ((&&) (columns_in_range s s.stiffness) (columns_in_range s s.mass))
           ((&&) (Z.ltb Big_int_Z.zero_big_int s.unit_length)
             (match u with
              | Mu -> true
              | Lambda2 (_, q) -> Z.ltb Big_int_Z.zero_big_int q)))))
+
+(** val flat : system -> bool **)
+
+let flat s =
+  all (fun p -> Big_int_Z.eq_big_int p.geometric_stiffness Big_int_Z.zero_big_int) s.particles
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list; balance_reductions : reduction list;
@@ -2521,17 +2566,19 @@ let normal_poly l p =
 let rate_poly l p =
   scale_poly p.sign_of (along_poly p.tangent p (v_poly l))
 
-(** val cone_poly : unknown -> lifted -> slip_particle -> polynomial **)
+(** val cone_poly : system -> unknown -> lifted -> slip_particle -> polynomial **)
 
-let cone_poly u l p =
-  match u with
-  | Mu ->
-    add_poly (scale_poly p.sign_of (along_poly p.tangent p (w_poly l)))
-      (Big_int_Z.zero_big_int :: (along_poly p.normal p (w_poly l)))
-  | Lambda2 (m, q) ->
-    add_poly
-      (scale_poly (Big_int_Z.mult_big_int q p.sign_of) (along_poly p.tangent p (w_poly l)))
-      (scale_poly m (along_poly p.normal p (w_poly l)))
+let cone_poly s u l p =
+  let turned0 = scale_poly (turning s u p) (rate_poly l p) in
+  (match u with
+   | Mu ->
+     add_poly (scale_poly p.sign_of (along_poly p.tangent p (w_poly l)))
+       (Big_int_Z.zero_big_int :: (along_poly p.normal p (w_poly l)))
+   | Lambda2 (m, q) ->
+     add_poly
+       (add_poly
+         (scale_poly (Big_int_Z.mult_big_int q p.sign_of) (along_poly p.tangent p (w_poly l)))
+         (scale_poly m (along_poly p.normal p (w_poly l)))) turned0)
 
 (** val balanced : system -> unknown -> lifted -> int -> bool **)
 
@@ -2578,8 +2625,8 @@ let particle_states s u l j =
        then shows_negative l.motion_claim (rate_poly l p) rate0
        else shows_zero l.motion_claim (rate_poly l p) rate0)
       (if (||) (in_support s l j) (is_biactive s l j)
-       then shows_zero l.motion_claim (cone_poly u l p) reaction
-       else shows_negative l.motion_claim (cone_poly u l p) reaction))
+       then shows_zero l.motion_claim (cone_poly s u l p) reaction
+       else shows_negative l.motion_claim (cone_poly s u l p) reaction))
 
 type zero_system = { without_zero : system; zero_particles : slip_particle list }
 
@@ -2592,7 +2639,8 @@ type zero_claim = { lifted_part : lifted; opening_reductions : reduction list;
 let zero_particle z0 j =
   nth { first_dof = 0; second_dof = 0; tangent = (Big_int_Z.zero_big_int,
     Big_int_Z.zero_big_int); normal = (Big_int_Z.zero_big_int, Big_int_Z.zero_big_int);
-    sign_of = Big_int_Z.zero_big_int } z0.zero_particles j
+    sign_of = Big_int_Z.zero_big_int; geometric_stiffness = Big_int_Z.zero_big_int }
+    z0.zero_particles j
 
 (** val zero_dofs : zero_system -> int list **)
 
@@ -2645,7 +2693,7 @@ let zero_wellformed z0 u =
 
 let with_sign sign0 p =
   { first_dof = p.first_dof; second_dof = p.second_dof; tangent = p.tangent; normal = p.normal;
-    sign_of = sign0 }
+    sign_of = sign0; geometric_stiffness = Big_int_Z.zero_big_int }
 
 (** val sliding_poly : zero_claim -> slip_particle -> polynomial **)
 
@@ -2657,15 +2705,16 @@ let sliding_poly c p =
 let pressure_poly c p =
   along_poly p.normal p (w_poly c.lifted_part)
 
-(** val right_poly : unknown -> zero_claim -> slip_particle -> polynomial **)
+(** val right_poly : zero_system -> unknown -> zero_claim -> slip_particle -> polynomial **)
 
-let right_poly u c p =
-  cone_poly u c.lifted_part (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
+let right_poly z0 u c p =
+  cone_poly z0.without_zero u c.lifted_part
+    (with_sign (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) p)
 
-(** val left_poly : unknown -> zero_claim -> slip_particle -> polynomial **)
+(** val left_poly : zero_system -> unknown -> zero_claim -> slip_particle -> polynomial **)
 
-let left_poly u c p =
-  cone_poly u c.lifted_part (with_sign Big_int_Z.unit_big_int p)
+let left_poly z0 u c p =
+  cone_poly z0.without_zero u c.lifted_part (with_sign Big_int_Z.unit_big_int p)
 
 (** val row_state : zero_claim -> Equality.sort -> polynomial -> reduction -> bool **)
 
@@ -2707,9 +2756,10 @@ let zero_states z0 u c j =
                 then shows_negative c.lifted_part.motion_claim (sliding_poly c p) sliding
                 else shows_zero c.lifted_part.motion_claim (sliding_poly c p) sliding)
           ((&&)
-            (row_state c (Obj.magic right z0 j) (right_poly u c p)
+            (row_state c (Obj.magic right z0 j) (right_poly z0 u c p)
               (witness c.right_reductions j))
-            (row_state c (Obj.magic left z0 j) (left_poly u c p) (witness c.left_reductions j))))))
+            (row_state c (Obj.magic left z0 j) (left_poly z0 u c p)
+              (witness c.left_reductions j))))))
 
 (** val zero_variables : zero_system -> int list -> bool **)
 
@@ -4608,7 +4658,7 @@ let check_critical_leaf z0 parts r low high l =
 
 let check_critical z0 w tr from bound1 =
   let parts = condensed_parts z0 w in
-  (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
+  (&&) (zero_wellformed z0 Mu)
     ((&&) (parts_eliminated z0 w)
       (check_boxes (slip_number z0) (check_critical_leaf z0 parts) tr (window zero infinity)
         from bound1))
@@ -4770,7 +4820,7 @@ let both_bounded z0 radii w =
 
 let check_anchored_critical z0 radii w tr from bound1 =
   let families0 = box_expansions z0 radii w in
-  (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
+  (&&) (zero_wellformed z0 Mu)
     ((&&) ((||) (nilp w.box_anchors) (both_bounded z0 radii w))
       (check_boxes (slip_number z0) (check_anchored_box z0 radii w families0) tr
         (window zero infinity) from bound1))
@@ -4915,7 +4965,7 @@ let rec check_pieces z0 radii w families0 low pieces bound1 =
 
 let check_presence z0 radii w pieces from bound1 =
   let families0 = box_expansions z0 radii w in
-  (&&) (zero_wellformed z0 (Lambda2 (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)))
+  (&&) (zero_wellformed z0 Mu)
     ((&&) (both_bounded z0 radii w)
       ((&&) (Z.ltb Big_int_Z.zero_big_int (snd bound1))
         (check_pieces z0 radii w families0 from pieces bound1)))
@@ -5160,7 +5210,7 @@ let reflected q =
 type contact =
 | NotInContact
 | Sticking
-| Slipping of Big_int_Z.big_int
+| Slipping of Big_int_Z.big_int * rational0
 | ZeroInContact
 
 type given_particle = { first_of : int; second_of : int; contact_of : contact;
@@ -5205,7 +5255,7 @@ type scales = { entry_scale : Big_int_Z.big_int; length_scale : Big_int_Z.big_in
 
 let slips p =
   match p.contact_of with
-  | Slipping _ -> true
+  | Slipping (_, _) -> true
   | _ -> false
 
 (** val zeroes : given_particle -> bool **)
@@ -5226,8 +5276,15 @@ let in_contact p =
 
 let sign p =
   match p.contact_of with
-  | Slipping s -> s
+  | Slipping (s, _) -> s
   | _ -> Big_int_Z.zero_big_int
+
+(** val geometric_of : given_particle -> Big_int_Z.big_int * Big_int_Z.big_int **)
+
+let geometric_of p =
+  match p.contact_of with
+  | Slipping (_, g) -> g
+  | _ -> (Big_int_Z.zero_big_int, Big_int_Z.unit_big_int)
 
 (** val slipping : rational_system -> given_particle list **)
 
@@ -5238,6 +5295,11 @@ let slipping b =
 
 let with_zero b =
   filter zeroes b.given_particles
+
+(** val flat_body : rational_system -> bool **)
+
+let flat_body b =
+  all (fun p -> Big_int_Z.eq_big_int (fst (geometric_of p)) Big_int_Z.zero_big_int) (slipping b)
 
 (** val dofs_of : given_particle list -> int list **)
 
@@ -5290,6 +5352,16 @@ let scaled_planar c e =
 let exact_planar c e =
   (&&) (exact c.length_scale (fst e)) (exact c.length_scale (snd e))
 
+(** val normal_of_length : scales -> given_particle -> bool **)
+
+let normal_of_length c p =
+  let n = scaled_planar c (long_normal p) in
+  Big_int_Z.eq_big_int
+    (Big_int_Z.mult_big_int (inner n n)
+      (Big_int_Z.mult_big_int (snd p.factor_of) (snd p.factor_of)))
+    (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int c.length_scale c.length_scale)
+      (Big_int_Z.mult_big_int (fst p.factor_of) (fst p.factor_of)))
+
 (** val exact_particle : scales -> given_particle -> bool **)
 
 let exact_particle c p =
@@ -5298,14 +5370,15 @@ let exact_particle c p =
       ((&&) (Z.ltb Big_int_Z.zero_big_int (fst p.factor_of))
         ((&&) (Z.ltb Big_int_Z.zero_big_int (snd p.factor_of))
           ((&&) (Z.ltb Big_int_Z.zero_big_int (snd (fst p.frame_normal)))
-            (Z.ltb Big_int_Z.zero_big_int (snd (snd p.frame_normal)))))))
+            ((&&) (Z.ltb Big_int_Z.zero_big_int (snd (snd p.frame_normal)))
+              ((&&) (normal_of_length c p) (exact c.entry_scale (geometric_of p))))))))
 
 (** val scaled_particle : scales -> given_particle -> slip_particle **)
 
 let scaled_particle c p =
   { first_dof = p.first_of; second_dof = p.second_of; tangent =
     (scaled_planar c p.frame_tangent); normal = (scaled_planar c (long_normal p)); sign_of =
-    (sign p) }
+    (sign p); geometric_stiffness = (scaled_entry c.entry_scale (geometric_of p)) }
 
 (** val scaled_system : scales -> rational_system -> system **)
 

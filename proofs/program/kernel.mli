@@ -839,7 +839,7 @@ val left_open : whole leaf tree -> point -> point -> region list
 type planar = Big_int_Z.big_int * Big_int_Z.big_int
 
 type slip_particle = { first_dof : int; second_dof : int; tangent : planar; normal : planar;
-                       sign_of : Big_int_Z.big_int }
+                       sign_of : Big_int_Z.big_int; geometric_stiffness : Big_int_Z.big_int }
 
 type system = { dofs : int; stiffness : sparse_row list; mass : sparse_row list;
                 free_dofs : int list; particles : slip_particle list;
@@ -885,6 +885,19 @@ val force_form : system -> unknown -> int -> linear_form
 
 val pressing_form : system -> unknown -> planar -> slip_particle -> linear_form
 
+val inner : planar -> planar -> Big_int_Z.big_int
+
+val unit_square : system -> Big_int_Z.big_int
+
+val turning_numerator :
+  system -> Big_int_Z.big_int -> Big_int_Z.big_int -> slip_particle -> Big_int_Z.big_int
+
+val turning : system -> unknown -> slip_particle -> Big_int_Z.big_int
+
+val turns_exactly : system -> unknown -> slip_particle -> bool
+
+val sliding_row : Big_int_Z.big_int -> slip_particle -> sparse_row
+
 val cone_form : system -> unknown -> slip_particle -> linear_form
 
 val negative : linear_form -> linear_form
@@ -895,11 +908,11 @@ val pencil_of : system -> unknown -> pencil
 
 val columns_in_range : system -> sparse_row list -> bool
 
-val inner : planar -> planar -> Big_int_Z.big_int
-
-val particle_wellformed : system -> slip_particle -> bool
+val particle_wellformed : system -> unknown -> slip_particle -> bool
 
 val system_wellformed : system -> unknown -> bool
+
+val flat : system -> bool
 
 type lifted = { motion_claim : claim; forces : polynomial list;
                 force_reductions : reduction list; balance_reductions : reduction list;
@@ -922,7 +935,7 @@ val normal_poly : lifted -> slip_particle -> polynomial
 
 val rate_poly : lifted -> slip_particle -> polynomial
 
-val cone_poly : unknown -> lifted -> slip_particle -> polynomial
+val cone_poly : system -> unknown -> lifted -> slip_particle -> polynomial
 
 val balanced : system -> unknown -> lifted -> int -> bool
 
@@ -966,9 +979,9 @@ val sliding_poly : zero_claim -> slip_particle -> polynomial
 
 val pressure_poly : zero_claim -> slip_particle -> polynomial
 
-val right_poly : unknown -> zero_claim -> slip_particle -> polynomial
+val right_poly : zero_system -> unknown -> zero_claim -> slip_particle -> polynomial
 
-val left_poly : unknown -> zero_claim -> slip_particle -> polynomial
+val left_poly : zero_system -> unknown -> zero_claim -> slip_particle -> polynomial
 
 val row_state : zero_claim -> Equality.sort -> polynomial -> reduction -> bool
 
@@ -1744,7 +1757,7 @@ val reflected : rational_pencil -> rational_pencil
 type contact =
 | NotInContact
 | Sticking
-| Slipping of Big_int_Z.big_int
+| Slipping of Big_int_Z.big_int * rational0
 | ZeroInContact
 
 type given_particle = { first_of : int; second_of : int; contact_of : contact;
@@ -1793,9 +1806,13 @@ val in_contact : given_particle -> bool
 
 val sign : given_particle -> Big_int_Z.big_int
 
+val geometric_of : given_particle -> Big_int_Z.big_int * Big_int_Z.big_int
+
 val slipping : rational_system -> given_particle list
 
 val with_zero : rational_system -> given_particle list
+
+val flat_body : rational_system -> bool
 
 val dofs_of : given_particle list -> int list
 
@@ -1814,6 +1831,8 @@ val long_normal : given_particle -> rational0 * rational0
 val scaled_planar : scales -> (rational0 * rational0) -> planar
 
 val exact_planar : scales -> (rational0 * rational0) -> bool
+
+val normal_of_length : scales -> given_particle -> bool
 
 val exact_particle : scales -> given_particle -> bool
 

@@ -187,7 +187,7 @@ let describe_particle (framed, (p : Kernel.given_particle)) =
   let state = match p.contact_of with
     | NotInContact -> "free"
     | Sticking -> "stick"
-    | Slipping sign -> "slip " ^ Z.to_string sign
+    | Slipping (sign, _) -> "slip " ^ Z.to_string sign
     | ZeroInContact -> "zero" in
   let factor = value_of p.factor_of in
   [ Printf.sprintf "particle %d %d %s" p.first_of p.second_of state;
@@ -195,18 +195,29 @@ let describe_particle (framed, (p : Kernel.given_particle)) =
     String.concat "" ("normal" :: components p.into_obstacle p.frame_normal) ]
   @ (if Q.equal factor Q.one then [] else ["friction_factor " ^ Q.to_string factor])
 
+(* The geometric stiffness of a particle, curvature times normal reaction. *)
+let read_curvature state reaction = function
+  | Null -> Q.zero
+  | curvature ->
+    let field = fields ["value"; "normal_reaction"] [] curvature in
+    let value = rational (field "value") in
+    let normal = rational (field "normal_reaction") in
+    Demands.check_curvature state normal reaction;
+    Q.mul value normal
+
 let read_particle order mu item =
   let field =
     fields ["tangential"; "normal"; "state"]
-      ("sign" :: "reaction" :: "friction_factor_range" :: directions) item in
+      ("sign" :: "reaction" :: "friction_factor_range" :: "curvature" :: directions) item in
   let state = text (field "state") in
   let sign = unit_of "sign" (field "sign") in
   if (sign <> None) <> (state = "slip") then malformed "sign: exactly for slip";
   let sign = Option.value sign ~default:0 in
+  let geometric = read_curvature state (field "reaction") (field "curvature") in
   let contact = match state with
     | "free" -> Kernel.NotInContact
     | "stick" -> Sticking
-    | "slip" -> Slipping (Z.of_int sign)
+    | "slip" -> Slipping (Z.of_int sign, point_of geometric)
     | "zero" -> ZeroInContact
     | _ -> malformed "the state %S" state in
   let framed, particle = read_directions order field contact in
@@ -215,15 +226,17 @@ let read_particle order mu item =
    | Null -> ()
    | v -> Demands.check_reaction (Option.map (Q.mul factor) mu) state sign v);
   let text = describe_particle (framed, particle) in
+  let bent = if Q.sign geometric = 0 then []
+    else ["geometric_stiffness " ^ Q.to_string geometric] in
   (* Members have factors between both ends; the particle has their mean. *)
   match field "friction_factor_range" with
-  | Null -> (text, particle), None
+  | Null -> (text @ bent, particle), None
   | ends ->
     (match List.map rational (list ends) with
      | [lo; hi] when Q.sign lo >= 0 && Q.lt lo hi && Q.leq lo factor && Q.leq factor hi ->
        let mean = Q.div (Q.add lo hi) (Q.of_int 2) in
        let range = Printf.sprintf "friction_factor_range %s %s" (Q.to_string lo) (Q.to_string hi) in
-       (text @ [range], { particle with factor_of = point_of mean }), Some (lo, hi)
+       (text @ [range] @ bent, { particle with factor_of = point_of mean }), Some (lo, hi)
      | _ -> malformed "friction_factor_range: 0 <= lo < hi, the factor between")
 
 (* Stiffness, mass and friction. *)
@@ -295,6 +308,9 @@ let read_system folder unknown item =
               && List.for_all (fun range -> range = None) ranges in
   if not exact && List.exists Kernel.zeroes given_particles then
     malformed "radii beside a particle in state zero";
+  let curved = not (Kernel.flat_body system) in
+  if curved && unknown = "mu" then malformed "the unknown mu of a curved system";
+  if curved && not exact then malformed "radii or friction_factor_range of a curved system";
   let members () =
     let ends (p : Kernel.given_particle) = function
       | Some (lo, hi) -> point_of lo, point_of hi

@@ -39,6 +39,17 @@ let members_of scales question (radii : Kernel.rational_radii) =
     { radii = Kernel.radii_of_parts system scaled; shares; share_unit }
   | _ -> invalid_arg "radii of another problem"
 
+(* The geometric stiffness g, and (1 + c^2 mu^2) g in the row that is multiplied by the denominator
+   of mu (System.v, turns_exactly). *)
+let curvature_of unknown (p : Kernel.given_particle) =
+  let geometric = Problem.value_of (Kernel.geometric_of p) in
+  let turning = match unknown with
+    | Kernel.Mu -> Q.zero
+    | Lambda2 (m, q) ->
+      let slope = Q.mul (Problem.value_of p.factor_of) (Q.make m q) in
+      Q.mul (Q.of_bigint q) (Q.mul (Q.add Q.one (Q.mul slope slope)) geometric) in
+  List.map Problem.point_of [geometric; turning]
+
 let of_problem (problem : Problem.t) =
   let given, radii, more = match problem.given with
     | GivenMembers (s, radii) ->
@@ -55,7 +66,10 @@ let of_problem (problem : Problem.t) =
       let planar common (a, b) = denominator common [a; b] in
       let length common (p : Kernel.given_particle) =
         planar (planar common p.frame_tangent) (Kernel.long_normal p) in
-      { entry_scale = of_rows (of_rows (of_rows Z.one s.given_stiffness) s.given_mass) more;
+      let curvatures = List.concat_map (curvature_of unknown) (Kernel.slipping s) in
+      { entry_scale =
+          denominator (of_rows (of_rows (of_rows Z.one s.given_stiffness) s.given_mass) more)
+            curvatures;
         length_scale = List.fold_left length Z.one (Kernel.slipping s @ Kernel.with_zero s) },
       (match unknown with Mu -> Z.one | Lambda2 (_, q) -> q)
     | GivenMembers _ | GivenPlain _ | GivenLoads _ -> invalid_arg "no eigenproblem" in
