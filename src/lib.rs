@@ -80,7 +80,9 @@ pub use mceip_engine::multistart::Uncertified;
 #[cfg(feature = "solver")]
 pub use mceip_engine::run::{Cancel, Kept, Progress};
 pub use mceip_exact::{Interval, Rational};
-pub use mceip_model::{ContactState, ModelError, Particle, RealWindow, Unknown, Window};
+pub use mceip_model::{
+    ContactState, Curvature, ModelError, Particle, Reaction, RealWindow, Unknown, Window,
+};
 
 #[cfg(feature = "cli")]
 #[doc(hidden)]

@@ -115,9 +115,10 @@ pub(super) fn load_question(path: &Path, window: Option<&str>) -> Result<Questio
     }))
 }
 
-/// Is mu = 0 a coefficient without solutions? Of MCEIP-mu it is none that is asked for.
+/// Is mu = 0 a coefficient without solutions? Of MCEIP-mu it is none that is asked for, and the
+/// theorem is one of flat obstacles.
 fn is_absent_without_friction(file: &SystemFile) -> Result<bool, CliError> {
-    if file.unknown == Unknown::Mu {
+    if file.unknown == Unknown::Mu || file.system.curved_particle().is_some() {
         return Ok(false);
     }
 

@@ -10,8 +10,8 @@
 //! 3. w_f = 0 at the free degrees of freedom.
 //! 4. Stick: v = 0 at both degrees of freedom of the particle. Slip: v_N = 0; S v_T < 0 on the
 //!    support, else S v_T = 0; S w_T + mu w_N = 0 on the support and where biactive, else < 0.
-//!    On a curved obstacle (`spec/curvature.md`) (1 + mu^2) g S v_T stands beside S w_T + mu w_N;
-//!    off the support it is 0.
+//!    On a curved obstacle (`spec/curvature.md`) (1 + mu^2) g S v_T is added to S w_T + mu w_N,
+//!    mu that of the particle; off the support it is 0.
 //!    Zero reaction, with the variables gap, right and left: v_N < 0 if gap is in the support, else
 //!    v_N = 0; w_N = 0 if gap is in the support or biactive, else w_N < 0; v_T > 0 if right is in
 //!    the support, v_T < 0 if left is, else v_T = 0; the cone line of S = -1 for right, that of
@@ -28,7 +28,7 @@ use super::AcceptedClaim;
 use super::exact_solution::{
     Alpha, ClaimSize, Polynomial, coefficients, index_set, isolate, one_half, within,
 };
-use super::pencil::Rows;
+use super::pencil::{Rows, turning_stiffness};
 use super::reason::Reason;
 use crate::certificate::LiftedSolution;
 use mceip_exact::{Poly, Rational, Sparse};
@@ -189,11 +189,14 @@ impl Lines<'_> {
         }
 
         let mut cone = self.cone(particle, &s);
-        add(&mut cone, &self.turning(particle), &slip_rate, 0);
+        // With mu as the unknown obstacles are flat.
+        if let Some(mu) = self.system.friction() {
+            add(&mut cone, &turning_stiffness(particle, mu), &slip_rate, 0);
+        }
         self.on_cone(index, &cone, slip)
     }
 
-    /// The sign of S w_T + mu w_N, which is `cone`.
+    /// The sign of `cone`, the line of the friction cone.
     fn on_cone(&self, index: usize, cone: &Polynomial, slip: ClaimedPair) -> Result<(), Reason> {
         let line = match slip {
             ClaimedPair::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
@@ -250,16 +253,6 @@ impl Lines<'_> {
 
         self.on_cone(index, &self.cone(particle, &minus_one), right)?;
         self.on_cone(index, &self.cone(particle, &one), left)
-    }
-
-    /// (1 + c^2 mu^2) g of a slip particle. With mu as the unknown g is 0.
-    fn turning(&self, particle: &Particle) -> Rational {
-        let Some(mu) = self.system.friction() else {
-            return Rational::zero();
-        };
-
-        let friction = mu * &particle.friction_factor;
-        (Rational::one() + &friction * &friction) * particle.geometric_stiffness()
     }
 
     /// S w_T + mu w_N, where mu is a number of the system or the unknown itself.

@@ -39,7 +39,7 @@
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Particle, Problem, System, Unknown};
-use num_traits::{One as _, Signed as _, Zero as _};
+use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;
 
 /// One row of A + tB with denominators cleared: (column, coefficient in A, coefficient in B).
@@ -529,10 +529,16 @@ impl Variables {
     /// The factor (1 + c^2 mu^2) g of x_i in row i, where i slips along a curved obstacle.
     fn turning(&self, i: usize, mu: &Rational) -> Option<Rational> {
         let particle = self.slip.get(i.checked_sub(self.free)?)?;
-        let friction = mu * &particle.friction_factor;
-        let turned = Rational::one() + &friction * &friction;
-        Some(turned * particle.geometric_stiffness()).filter(|turning| !turning.is_zero())
+        particle.curvature.as_ref()?;
+        Some(turning_stiffness(particle, mu))
     }
+}
+
+/// (1 + c^2 mu^2) g, where the reaction of a particle turns along a curved obstacle. The reduction
+/// of the model crate forms it by itself.
+pub(super) fn turning_stiffness(particle: &Particle, mu: &Rational) -> Rational {
+    let friction = mu * &particle.friction_factor;
+    (Rational::one() + &friction * &friction) * particle.geometric_stiffness()
 }
 
 /// R_K and R_M of a body, and how far its friction factors are from their middle.

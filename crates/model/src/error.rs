@@ -187,8 +187,8 @@ pub enum ModelError {
     /// Slip particles need friction.
     #[error(
         "E7: expected friction > 0 with slip particles (particle {particle}), got {friction}: \
-         without friction nothing is in impending slip; write the mu of the contact, or ask \
-         `mceip analyze --friction 0`, which a theorem answers"
+         without friction nothing is in impending slip; write the mu of the contact, or, on \
+         flat obstacles, ask `mceip analyze --friction 0`, which a theorem answers"
     )]
     FrictionNotPositive {
         /// The first slip particle.
@@ -258,9 +258,8 @@ pub enum ModelError {
     },
     /// A curved obstacle, where it is not treated.
     #[error(
-        "E9: particle {particle} slips on a curved obstacle; expected flat ones here (of curved \
-         ones complete, solve, enumerate, certify and check treat lambda2 at one friction: \
-         spec/curvature.md)"
+        "E9: particle {particle} slips on a curved obstacle; expected flat ones here (curved ones \
+         are treated at one mu > 0, without radii: spec/curvature.md, K.2)"
     )]
     Curved {
         /// The particle.

@@ -105,7 +105,8 @@ pub struct Particle {
     pub friction_factor_range: Option<[Rational; 2]>,
     /// The reaction at equilibrium, checked against (7) and the sign.
     pub reaction: Option<Reaction>,
-    /// The curved obstacle that it may slip along; `None`: a flat one.
+    /// The curved obstacle that it may slip along; `None`: a flat one, as in a [`System`] where
+    /// the curvature is 0.
     pub curvature: Option<Curvature>,
     /// A name for people: no answer and no digest depends on it.
     pub name: Option<String>,
@@ -262,7 +263,7 @@ impl System {
             stiffness,
             mass,
             friction,
-            particles,
+            particles: particles.into_iter().map(flat_without_curvature).collect(),
             radii: Radii::NONE,
         };
         system.with_radii(Radii::NONE)
@@ -325,8 +326,8 @@ impl System {
     /// mu, in which K* is quadratic on curved ones.
     ///
     /// # Errors
-    /// [`ModelError::Missing`], [`ModelError::Curved`], or [`ModelError::NothingSlips`] for a system
-    /// without solutions.
+    /// [`ModelError::Missing`], [`ModelError::Curved`], or [`ModelError::NothingSlips`] for a
+    /// system without solutions.
     pub fn require_for(&self, unknown: Unknown) -> Result<(), ModelError> {
         let is_dynamic = match unknown {
             Unknown::Lambda2 => true,
@@ -496,8 +497,8 @@ impl System {
 
     /// The first particle whose reaction turns along a curved obstacle.
     pub fn curved_particle(&self) -> Option<usize> {
-        let turns = |particle: &Particle| !particle.geometric_stiffness().is_zero();
-        self.particles.iter().position(turns)
+        let mut particles = self.particles.iter();
+        particles.position(|particle| particle.curvature.is_some())
     }
 
     /// f: the dofs of no particle in contact, ascending.
@@ -676,12 +677,13 @@ fn check_curvature(index: usize, particle: &Particle) -> Result<(), ModelError> 
     };
     if !matches!(particle.state, ContactState::Slip { .. }) {
         let got = format!("one in state {}", particle.state.word());
-        return Err(refused("a curvature in state slip alone", got));
+        return Err(refused("none but in state slip", got));
     }
 
     let normal_reaction = &curvature.normal_reaction;
     if !normal_reaction.is_negative() {
-        return Err(refused("normal_reaction < 0", normal_reaction.to_string()));
+        let expected = "normal_reaction < 0 (the obstacle pushes)";
+        return Err(refused(expected, normal_reaction.to_string()));
     }
 
     match &particle.reaction {
@@ -694,6 +696,12 @@ fn check_curvature(index: usize, particle: &Particle) -> Result<(), ModelError> 
         }
         _ => Ok(()),
     }
+}
+
+/// The particle without a curvature of value 0: what has one is curved.
+fn flat_without_curvature(mut particle: Particle) -> Particle {
+    particle.curvature = particle.curvature.filter(|c| !c.value.is_zero());
+    particle
 }
 
 /// The first condition on a reaction that does not hold; `friction` is that of the particle. Those

@@ -19,8 +19,8 @@
 //!   counts where a particle slips, with its reaction (`spec/curvature.md`).
 //!
 //! Of contact candidates under loads ([`read_candidates`]) states and reactions are not known, and
-//! obstacles are flat: there are no such columns, and `gap` may hold the distance from the obstacle in the unloaded
-//! body.
+//! obstacles are flat: there are no such columns. `gap` may hold the distance from the obstacle in
+//! the unloaded body.
 //!
 //! Lines that begin with # are comments; a cell may be empty where it is optional.
 //!

@@ -26,7 +26,7 @@ use super::CondensationError;
 use crate::search::complete::pieces::matrix::combined;
 use mceip_exact::{Sparse, to_f64};
 use mceip_mcp::linear::{SchurFactor, SymbolicAnalysis, Symmetric};
-use mceip_model::{ContactState, Direction, Particle, System};
+use mceip_model::{ContactState, Direction, ModelError, Particle, System};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
@@ -222,7 +222,7 @@ impl SparseCondensation {
     ) -> Result<SparseCondensation, CondensationError> {
         let is_curved = |particle: &Particle| particle.curvature.is_some();
         if let Some(particle) = particles.iter().position(is_curved) {
-            return Err(CondensationError::Curved { particle });
+            return Err(ModelError::Curved { particle }.into());
         }
 
         let dofs = stiffness.order();

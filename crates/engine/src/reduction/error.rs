@@ -72,12 +72,6 @@ pub enum CondensationError {
         /// Index of the particle.
         particle: usize,
     },
-    /// A curved obstacle, which the condensation does not treat.
-    #[error("E9: particle {particle} slips on a curved obstacle, which is not supported here")]
-    Curved {
-        /// Index of the particle.
-        particle: usize,
-    },
     /// A matrix that doubles cannot hold, or that is not symmetric.
     #[error(transparent)]
     Symmetric(#[from] SymmetricError),

@@ -72,7 +72,7 @@ pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, Model
         // (12), (15)
         (Unknown::Lambda2, Some(mass), Some(mu)) => {
             let mass = changes.blocks(mass);
-            let turning = turning(system, mu);
+            let turning = turning_diagonal(system, mu);
             let k_star = stiffness.at(mu).add_scaled(&Rational::one(), &turning);
             (k_star, mass.at(mu))
         }
@@ -89,7 +89,7 @@ pub fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, Model
 
 /// The diagonal (1 + c^2 mu^2) g of reactions that turn along curved obstacles
 /// (`spec/curvature.md`).
-fn turning(system: &System, mu: &Rational) -> Sparse {
+fn turning_diagonal(system: &System, mu: &Rational) -> Sparse {
     let free = system.free_dofs().len();
     let slip = system.slip_particles();
     let order = free + slip.len() + 3 * system.zero_particles().len();

@@ -10,7 +10,7 @@
 //! | z that slides | w_T = mu sign(v_T) w_N |
 //!
 //! with cone = S w_T + mu w_N, and (1 + mu^2) g S v_T more on a curved obstacle
-//! (`spec/curvature.md`).
+//! (`spec/curvature.md`), mu that of the particle.
 //!
 //! Each side is a polynomial in t up to a positive factor; its sign at t decides the line. The
 //! first line of (9), (t M + K) v = w, holds by construction of [`super::lift`].

@@ -335,8 +335,8 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
     pencil.unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
 }
 
-/// What a reaction that turns by kappa v_T along a curved obstacle adds to y = -(S w_T + c mu w_N) of
-/// x = -S v_T: kappa (r_N - S c mu r_T) with r_T = -S c mu r_N.
+/// What a reaction that turns by kappa v_T along a curved obstacle adds to y = -(S w_T + c mu w_N)
+/// of x = -S v_T: kappa (r_N - S c mu r_T) with r_T = -S c mu r_N.
 fn turning(particle: &Particle, friction: &Rational) -> Rational {
     let Some(curvature) = &particle.curvature else {
         return Rational::zero();
