@@ -8,7 +8,7 @@
 
 use super::family::{HalfLineFamily, PieceOfHalfLine, parts_of};
 use crate::branch::BranchPoint;
-use crate::search::complete::pieces::condense::columns_of_all;
+use crate::search::complete::pieces::anchor::columns_of_all;
 use crate::search::complete::pieces::expansion::{Expansion, ExpansionSpread};
 use crate::search::complete::pieces::matrix::zeros;
 use crate::tolerance::ROUNDING;

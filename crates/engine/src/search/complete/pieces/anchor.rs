@@ -21,9 +21,10 @@ use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
 use crate::search::complete::rounding::integer;
 use mceip_check::certificate::{Anchor, IntegerMatrix, IntegerRow};
-use mceip_exact::{Rational, to_f64};
+use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
+use num_traits::ToPrimitive;
 
 /// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's
 /// rounding costs enters to first order (times V), what the degree leaves out enters squared.
@@ -102,6 +103,9 @@ const SLACK_OF_CENTER: f64 = 0.01;
 
 /// Anchors at most: beyond that the window is left open above.
 const MAX_ANCHORS: usize = 64;
+
+/// An integer in units of 2^-this, or of a larger power of two, is a normal double.
+const MAX_EXACT_EXPONENT: u32 = 1_000;
 
 /// Largest binary exponent of a rounded matrix.
 pub(crate) const MAX_EXPONENT: i32 = 900;
@@ -222,16 +226,16 @@ impl<'a> FreeElimination<'a> {
         Some(ExpandedAnchor { anchor, expansion })
     }
 
-    /// V alone about the centre of an anchor of a pencil with the same free rows, whose W is
-    /// `right`: of the degree of W, with as many bits as the V of that anchor. `None` where F is
-    /// not definite in doubles.
-    pub(crate) fn expand_beside(&self, anchor: &Anchor, right: &[SlipColumns]) -> Option<Beside> {
+    /// V alone about the centre of an anchor of a pencil with the same free rows: of the degree of
+    /// its W, with as many bits as its V. `None` where F is not definite in doubles.
+    pub(crate) fn expand_beside(&self, anchor: &Anchor) -> Option<Beside> {
         let at = to_f64(&anchor.center.0);
         let solution = CenterSolver::about(&self.blocks, at)?;
-        let degree = right.len().saturating_sub(1);
+        let degree = anchor.right.len().saturating_sub(1);
         let bits = bits_of(&anchor.left).max(OF_FAMILY.coarse.left_bits);
         let left = solution.taylor(&self.blocks.sf, degree, bits);
-        let expansion = self.expansion(at, right, &left.rounded);
+        let right = columns_of_all(&anchor.right, self.blocks.slip.len());
+        let expansion = self.expansion(at, &right, &left.rounded);
         Some(Beside {
             left: left.integers,
             expansion,
@@ -283,10 +287,43 @@ impl<'a> FreeElimination<'a> {
             left_solution: column_norms(left, &row_factors),
             right_rounding: column_norms(&right_residual[..right.len()], &ones),
             caution: 1.0,
-            free: right.to_vec(),
             reversed: false,
             spread: None,
         }
+    }
+}
+
+/// The coefficients of W or V, in doubles.
+pub(crate) fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<SlipColumns> {
+    let coefficients = coefficients.iter();
+    coefficients
+        .map(|matrix| columns_of(matrix, width))
+        .collect()
+}
+
+/// The columns of a rounded matrix, in doubles.
+fn columns_of(matrix: &IntegerMatrix, width: usize) -> SlipColumns {
+    let mut columns = vec![Vec::with_capacity(matrix.rows.len()); width];
+    for row in &matrix.rows {
+        for (column, entry) in columns.iter_mut().zip(row.iter()) {
+            column.push(nearest_double(&entry, matrix.exponent));
+        }
+    }
+
+    columns
+}
+
+/// The double nearest to entry 2^-exponent.
+fn nearest_double(entry: &Integer, exponent: u32) -> f64 {
+    match entry.to_i64() {
+        // Rounded once: the power of two is exact.
+        Some(short) if exponent <= MAX_EXACT_EXPONENT => {
+            short as f64 * f64::from(exponent).exp2().recip()
+        }
+        _ => to_f64(&Rational::new_raw(
+            entry.clone(),
+            Integer::from(1) << exponent,
+        )),
     }
 }
 

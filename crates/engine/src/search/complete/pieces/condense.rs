@@ -9,8 +9,8 @@
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
 use super::anchor::{
-    Beside, CONSTANT, ExpandedAnchor, FreeElimination, Precision, SlipColumns, SpectrumBounds,
-    centers,
+    Beside, CONSTANT, ExpandedAnchor, FreeElimination, Precision, SpectrumBounds, centers,
+    columns_of_all,
 };
 use super::blocks::PencilBlocks;
 use super::expansion::Expansion;
@@ -23,19 +23,15 @@ use crate::magnitude::has_square_in_doubles;
 use crate::search::complete::dyadic::{multiple_near, short_below};
 use crate::search::complete::error::CompleteError;
 use crate::search::complete::leaf::tail::tail;
-use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
-use mceip_exact::{Integer, Rational, Sparse, to_f64};
+use mceip_check::certificate::{Anchor, Condensation, Factor, Tail};
+use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
-use num_traits::ToPrimitive;
 use rayon::prelude::*;
 
 /// Share of an estimated lower bound of a spectrum that is claimed; the rest is slack for rounding.
 const CLAIMED: f64 = 0.8;
 const SLACK: f64 = 0.2;
-
-/// An integer in units of 2^-this, or of a larger power of two, is a normal double.
-const MAX_EXACT_EXPONENT: u32 = 1_000;
 
 /// Bits of the centre of an anchor about a solution, whose own anchor is to be precise there.
 const BITS_OF_FINE_CENTER: i32 = 20;
@@ -416,7 +412,6 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
     let exchanged = exchanged(pencil).ok()?;
     let elimination = FreeElimination::new(pencil, bounds);
     let reversed = FreeElimination::new(&exchanged, bounds.exchanged());
-    let width = pencil.slip().len();
 
     let beside = |anchor: &Anchor| {
         let elimination = if anchor.reversed {
@@ -425,8 +420,7 @@ pub(crate) fn beside(pencil: &Pencil, condensation: &Condensation) -> Option<Vec
             &elimination
         };
 
-        let right = columns_of_all(&anchor.right, width);
-        let mut beside = elimination.expand_beside(anchor, &right)?;
+        let mut beside = elimination.expand_beside(anchor)?;
         beside.expansion.reversed = anchor.reversed;
         Some(beside)
     };
@@ -442,39 +436,5 @@ fn expansion_of(elimination: &FreeElimination<'_>, anchor: &Anchor) -> Expansion
     Expansion {
         reversed: anchor.reversed,
         ..elimination.expansion(center, &right, &left)
-    }
-}
-
-/// The coefficients of W or V, in doubles.
-pub(crate) fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Vec<SlipColumns> {
-    let coefficients = coefficients.iter();
-    coefficients
-        .map(|matrix| columns_of(matrix, width))
-        .collect()
-}
-
-/// The columns of a rounded matrix, in doubles.
-fn columns_of(matrix: &IntegerMatrix, width: usize) -> SlipColumns {
-    let mut columns = vec![Vec::with_capacity(matrix.rows.len()); width];
-    for row in &matrix.rows {
-        for (column, entry) in columns.iter_mut().zip(row.iter()) {
-            column.push(nearest_double(&entry, matrix.exponent));
-        }
-    }
-
-    columns
-}
-
-/// The double nearest to entry 2^-exponent.
-fn nearest_double(entry: &Integer, exponent: u32) -> f64 {
-    match entry.to_i64() {
-        // Rounded once: the power of two is exact.
-        Some(short) if exponent <= MAX_EXACT_EXPONENT => {
-            short as f64 * f64::from(exponent).exp2().recip()
-        }
-        _ => to_f64(&Rational::new_raw(
-            entry.clone(),
-            Integer::from(1) << exponent,
-        )),
     }
 }

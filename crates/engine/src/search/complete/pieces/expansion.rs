@@ -37,8 +37,6 @@ pub(crate) struct Expansion {
     pub(crate) right_rounding: ColumnNorms,
     /// Factor on the remainder, which is itself computed in doubles.
     pub(crate) caution: f64,
-    /// W_k by columns: x_f = -W(d) x_s. Empty where there are no free variables.
-    pub(crate) free: Vec<Vec<Vec<f64>>>,
     /// Is this T(t) / t in powers of 1 / t - center?
     pub(crate) reversed: bool,
     /// What a member may be off, where the data have radii.
@@ -166,7 +164,6 @@ impl Expansion {
             left_solution: Vec::new(),
             right_rounding: Vec::new(),
             caution: 1.0,
-            free: Vec::new(),
             reversed: false,
             spread: None,
         }
@@ -215,7 +212,7 @@ impl Expansion {
 
     /// Is this the pencil itself, valid for every value?
     pub(crate) fn is_everywhere(&self) -> bool {
-        self.free.is_empty()
+        self.weight.is_empty()
     }
 
     /// Is the polynomial of degree one at most?

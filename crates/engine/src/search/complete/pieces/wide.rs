@@ -103,8 +103,7 @@ impl DefiniteAnchors<'_> {
         let is_definite = match other {
             None => self.is_definite(&expanded.expansion, begin, center.end),
             Some(other) => {
-                let right = &expanded.expansion.free;
-                let beside = other.expand_beside(&expanded.anchor, right)?;
+                let beside = other.expand_beside(&expanded.anchor)?;
                 self.is_definite(&beside.expansion, begin, center.end)
             }
         };
