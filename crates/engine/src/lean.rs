@@ -38,6 +38,7 @@ use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
+use std::sync::Arc;
 
 /// The format of lean certificates.
 pub const LEAN_FORMAT: &str = "mceip-lean/1";
@@ -266,7 +267,8 @@ pub fn shorten<C: HasAnchors>(
         may_be_left_out,
         |list, made| {
             if made.as_ref() == Some(list) {
-                list.iter_mut().for_each(|matrix| matrix.rows.clear());
+                list.iter_mut()
+                    .for_each(|matrix| matrix.rows = Arc::default());
             }
             true
         },

@@ -116,7 +116,7 @@ fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, Te
     // The matrix is held as integers times 2^-exponent.
     let unit = Rational::new(One::one(), Integer::one() << elimination.exponent);
     let mut rows = Vec::new();
-    for row in &elimination.rows {
+    for row in elimination.rows.iter() {
         let mut doubles = Vec::new();
         for v in row.iter() {
             doubles.push(to_f64(&(Rational::from_integer(v.into_owned()) * &unit)));

@@ -16,6 +16,7 @@ use mceip_model::file::{HasWords, WordOrKind};
 use num_traits::Signed as _;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
+use std::sync::Arc;
 
 /// All solutions in the certificate's window: a cover, or what is left of one (open leaves).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -468,6 +469,6 @@ pub(super) fn is_false(v: &bool) -> bool {
 pub struct IntegerMatrix {
     /// Binary exponent.
     pub exponent: u32,
-    /// Rows.
-    pub rows: Vec<IntegerRow>,
+    /// Rows; copies of a certificate share them.
+    pub rows: Arc<Vec<IntegerRow>>,
 }

@@ -636,7 +636,7 @@ impl IntegralBlocks {
         let mut entry_bits = 0;
         for m in list {
             CoverFault::length("anchor", self.free, m.rows.len())?;
-            for row in &m.rows {
+            for row in m.rows.iter() {
                 CoverFault::length("anchor row", self.slip, row.len())?;
             }
 

@@ -299,7 +299,7 @@ mod tests {
         let c: Linear = vec![vec![(0, int(12), int(18)), (1, int(20), int(-4))]];
         let w = [IntegerMatrix {
             exponent: 1,
-            rows: vec![vec![int(3), int(-2)].into()],
+            rows: vec![vec![int(3), int(-2)].into()].into(),
         }];
         let factors = vec![int(6), int(6)];
         let equations = ResidualEquations::new(&f, c, &w, &factors);

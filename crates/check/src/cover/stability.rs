@@ -456,7 +456,7 @@ fn check_matrix(
 ) -> Result<(), Reason> {
     CoverFault::at_most("exponent", MAX_EXPONENT.into(), matrix.exponent.into())?;
     Reason::length(what, rows, matrix.rows.len())?;
-    for row in &matrix.rows {
+    for row in matrix.rows.iter() {
         Reason::length(what, columns, row.len())?;
     }
 

@@ -52,7 +52,7 @@ fn integers(list: &[[i64; 2]]) -> Vec<IntegerRow> {
 fn matrix(exponent: u32, rows: [[i64; 2]; 2]) -> IntegerMatrix {
     IntegerMatrix {
         exponent,
-        rows: integers(&rows),
+        rows: integers(&rows).into(),
     }
 }
 

@@ -146,7 +146,7 @@ fn rounded(matrix: &Dense, exponent: u32) -> IntegerMatrix {
     };
     IntegerMatrix {
         exponent,
-        rows: matrix.iter().map(row).collect(),
+        rows: matrix.iter().map(row).collect::<Vec<_>>().into(),
     }
 }
 

@@ -26,6 +26,7 @@ use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator, to_f64
 use mceip_model::file::Number;
 use mceip_model::{MuFamily, Pencil};
 use num_traits::{One, Signed, Zero};
+use std::sync::Arc;
 
 /// Bits of the largest entry of W and V.
 const BITS: i32 = 60;
@@ -298,7 +299,7 @@ impl Inertia {
         let row = |g: usize| self.0.iter().map(|row| row[g].clone()).collect();
         IntegerMatrix {
             exponent: INERTIA_EXPONENT,
-            rows: (0..free).map(row).collect(),
+            rows: Arc::new((0..free).map(row).collect()),
         }
     }
 }

@@ -25,6 +25,7 @@ use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 use num_traits::ToPrimitive;
+use std::sync::Arc;
 
 /// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's
 /// rounding costs enters to first order (times V), what the degree leaves out enters squared.
@@ -304,7 +305,7 @@ pub(crate) fn columns_of_all(coefficients: &[IntegerMatrix], width: usize) -> Ve
 /// The columns of a rounded matrix, in doubles.
 fn columns_of(matrix: &IntegerMatrix, width: usize) -> SlipColumns {
     let mut columns = vec![Vec::with_capacity(matrix.rows.len()); width];
-    for row in &matrix.rows {
+    for row in matrix.rows.iter() {
         for (column, entry) in columns.iter_mut().zip(row.iter()) {
             column.push(nearest_double(&entry, matrix.exponent));
         }
@@ -329,7 +330,7 @@ fn nearest_double(entry: &Integer, exponent: u32) -> f64 {
 
 /// The bits of the largest entry of the first coefficient; 0 where there is none.
 fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
-    let rows = coefficients.first().into_iter().flat_map(|m| &m.rows);
+    let rows = coefficients.first().into_iter().flat_map(|m| m.rows.iter());
     let largest = rows.map(IntegerRow::bits).max();
     largest
         .and_then(|bits| i32::try_from(bits).ok())
@@ -585,7 +586,10 @@ impl Rounded {
         }
 
         Rounded {
-            integers: IntegerMatrix { exponent, rows },
+            integers: IntegerMatrix {
+                exponent,
+                rows: Arc::new(rows),
+            },
             columns: rounded,
         }
     }

@@ -18,6 +18,7 @@ use mceip_exact::{Integer, Rational, Sparse, common_denominator, from_f64, to_f6
 use mceip_model::Pencil;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed
 /// pencil.
@@ -226,7 +227,7 @@ fn widen(matrix: &mut IntegerMatrix, bits: u32) {
     }
 
     let more = u64::from(bits).saturating_sub(largest);
-    for row in &mut matrix.rows {
+    for row in Arc::make_mut(&mut matrix.rows) {
         *row = row.iter().map(|entry| &*entry << more).collect();
     }
 
@@ -315,7 +316,7 @@ fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
     let units = [exponent / 2, exponent - exponent / 2].map(|half| f64::from(half).exp2());
 
     let mut is_still = true;
-    for (i, row) in matrix.rows.iter_mut().enumerate() {
+    for (i, row) in Arc::make_mut(&mut matrix.rows).iter_mut().enumerate() {
         let mut corrected = row.to_vec();
         for (entry, column) in corrected.iter_mut().zip(columns) {
             let correction = (column[i] * units[0] * units[1]).round();
