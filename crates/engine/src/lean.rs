@@ -33,10 +33,10 @@ use mceip_check::certificate::{
     IntegerMatrix, PRESENCE_FORMAT, PresenceCertificate,
 };
 use mceip_exact::{Rational, to_f64};
-use mceip_model::file::{from_json_of_with_unique_keys, require_format};
+use mceip_model::file::{from_json, from_json_of_with_unique_keys, require_format, to_json_of};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 
@@ -224,7 +224,7 @@ pub fn skeleton(text: &str) -> Result<String, LeanError> {
     }
 
     let text = certificate.to_string();
-    drop(certificate); // ten times as long as its text
+    drop(certificate); // many times as long as its text
     match AnchoredKind::of(&text) {
         Some(_) => Ok(text),
         None => Err(LeanError::NoAnchors),
@@ -280,9 +280,7 @@ pub fn shorten<C: HasAnchors>(
         return Ok(None);
     }
 
-    let content = certificate.text();
-    let file = format!(r#"{{"format":"{LEAN_FORMAT}","certificate":{content}}}"#);
-    drop(content);
+    let file = written(&certificate.text())?;
 
     // What is made of the file is the certificate that was given: nothing got lost on the way.
     if C::read(&skeleton(&file)?)? != certificate {
@@ -291,7 +289,21 @@ pub fn shorten<C: HasAnchors>(
     Ok(Some(file))
 }
 
-#[derive(Deserialize)]
+/// The lean file of a certificate whose coefficients to be left out have no rows.
+fn written(certificate: &str) -> Result<String, LeanError> {
+    let mut lean = LeanFile {
+        certificate: from_json(certificate)?,
+    };
+    for matrix in matrices_of(&mut lean.certificate) {
+        if matrix["rows"] == json!([]) {
+            matrix.remove("rows");
+        }
+    }
+
+    Ok(to_json_of(LEAN_FORMAT, &lean))
+}
+
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LeanFile {
     certificate: Value,

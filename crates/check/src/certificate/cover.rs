@@ -469,12 +469,6 @@ pub(super) fn is_false(v: &bool) -> bool {
 pub struct IntegerMatrix {
     /// Binary exponent.
     pub exponent: u32,
-    /// Rows; copies of a certificate share them. A matrix without any is one that was left out of a
-    /// lean certificate; a file without the field is malformed.
-    #[serde(skip_serializing_if = "has_no_row")]
+    /// Rows; copies of a certificate share them.
     pub rows: Arc<Vec<IntegerRow>>,
-}
-
-fn has_no_row(rows: &Arc<Vec<IntegerRow>>) -> bool {
-    rows.is_empty()
 }
