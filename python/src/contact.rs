@@ -3,10 +3,7 @@
 use crate::MceipError;
 use crate::number;
 use mceip::{ContactState, Particle, Rational};
-use mceip_paper::{
-    ContactTable, ContactsError, ReactionPlace, make_frames_exact, read_contacts, with_curvature,
-    with_reaction,
-};
+use mceip_paper::{ContactTable, ReactionPlace, make_frames_exact, read_contacts, with_reaction};
 use pyo3::prelude::*;
 
 /// The contacts of a mechanical system.
@@ -77,19 +74,11 @@ fn of_list(contacts: Vec<Contact>, friction: Option<&Rational>) -> PyResult<Cont
 
     let mut reactions = vec![None; particles.len()];
     for (index, (along_dofs, curvature)) in given.into_iter().zip(curvatures).enumerate() {
-        let refused = |e: ContactsError| MceipError::new_err(e.to_string());
         let place = ReactionPlace::Entry(index);
-        let flat = particles[index].clone();
-        let particle = with_curvature(flat, curvature, along_dofs.as_ref(), place);
-        particles[index] = particle.map_err(refused)?;
-        let Some(along_dofs) = along_dofs else {
-            continue;
-        };
-
-        let held = with_reaction(particles[index].clone(), along_dofs, &friction, place);
-        let (particle, reaction) = held.map_err(refused)?;
-        particles[index] = particle;
-        reactions[index] = Some(reaction);
+        let particle = particles[index].clone();
+        let held = with_reaction(particle, along_dofs, curvature, &friction, place);
+        (particles[index], reactions[index]) =
+            held.map_err(|e| MceipError::new_err(e.to_string()))?;
     }
 
     Ok(ContactTable {

@@ -138,13 +138,7 @@ pub(crate) fn with_factors(system: &System, rng: &mut impl rand::Rng) -> System 
         particle.friction_factor = rational(rng.random_range(1..=12), 4);
     }
 
-    System::new(
-        system.stiffness().clone(),
-        system.mass().cloned(),
-        system.friction().cloned(),
-        particles,
-    )
-    .unwrap()
+    system.with_particles(particles).unwrap()
 }
 
 /// 70 mixtures with friction factors: the motions are the solutions of the reduced pencil, and each
@@ -280,13 +274,7 @@ impl WithZero {
             particles[particle].state = *state;
         }
 
-        System::new(
-            self.system.stiffness().clone(),
-            self.system.mass().cloned(),
-            self.system.friction().cloned(),
-            particles,
-        )
-        .unwrap()
+        self.system.with_particles(particles).unwrap()
     }
 }
 

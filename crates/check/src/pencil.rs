@@ -809,11 +809,10 @@ mod tests {
                         normal_reaction: rational(-5, 2),
                     });
             }
-            let stiffness = flat.stiffness().clone();
-            let friction = flat.friction().cloned();
-            let curved = System::new(stiffness, flat.mass().cloned(), friction, particles);
-            let body = Body::System(curved.unwrap());
-            let problem = Problem::new(body, Unknown::Lambda2, Window::all()).unwrap();
+            let of = |system: System| {
+                Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap()
+            };
+            let problem = of(flat.with_particles(particles).unwrap());
 
             let rows = Rows::of(&problem);
             let pencil = reduce(&problem).unwrap().pencil;
@@ -822,10 +821,8 @@ mod tests {
             }
 
             // (1 + (2/7)^2) (3/7) (-5/2), and (1 + (5/3 2/7)^2) (-2) (-5/2).
-            let of_flat =
-                reduce(&Problem::new(Body::System(flat), Unknown::Lambda2, Window::all()).unwrap())
-                    .unwrap();
-            let added = |i: usize| pencil.a().get(i, i) - of_flat.pencil.a().get(i, i);
+            let of_flat = reduce(&of(flat)).unwrap().pencil;
+            let added = |i: usize| pencil.a().get(i, i) - of_flat.a().get(i, i);
             assert_eq!(added(2), rational(53 * 3 * -5, 49 * 7 * 2));
             if second != ContactState::Zero {
                 assert_eq!(added(3), rational(541 * 5, 441));

@@ -322,6 +322,21 @@ impl System {
         system.with_radii(self.radii.clone())
     }
 
+    /// The same body, mu and radii with other particles.
+    ///
+    /// # Errors
+    /// [`ModelError`] as [`System::new`] and [`System::with_radii`].
+    pub fn with_particles(&self, particles: Vec<Particle>) -> Result<System, ModelError> {
+        let stiffness = self.stiffness.clone();
+        let system = System::new(
+            stiffness,
+            self.mass.clone(),
+            self.friction.clone(),
+            particles,
+        )?;
+        system.with_radii(self.radii.clone())
+    }
+
     /// Refuses a system that lacks what `unknown` needs: M and mu for lambda^2, flat obstacles for
     /// mu, in which K* is quadratic on curved ones.
     ///

@@ -411,14 +411,8 @@ impl<'a> ContactRow<'a> {
         let place = ReactionPlace::Line(self.line);
         let along_dofs = self.reaction()?;
         let curvature = self.number(Column::Curvature)?.unwrap_or_default();
-        let flat = self.without_reaction(state, dof)?;
-        let particle = with_curvature(flat, curvature, along_dofs.as_ref(), place)?;
-        let Some(along_dofs) = along_dofs else {
-            return Ok((particle, None));
-        };
-
-        let (particle, reaction) = with_reaction(particle, along_dofs, friction, place)?;
-        Ok((particle, Some(reaction)))
+        let particle = self.without_reaction(state, dof)?;
+        with_reaction(particle, along_dofs, curvature, friction, place)
     }
 
     /// A candidate, whose state and reaction are not known.
@@ -589,20 +583,32 @@ struct Directions {
     frame: Option<Frame>,
 }
 
-/// The particle with a reaction on the body along its tangential and its normal dof, as a
-/// finite-element program gives it.
+/// The particle on an obstacle of this curvature, with a reaction on the body along its tangential
+/// and its normal dof, if there is one, as a finite-element program gives it.
 ///
 /// The reaction is held against (7) and the state with a relative slack, for it comes from floats,
-/// and kept in the particle only where it satisfies (7) exactly.
+/// and kept in the particle only where it satisfies (7) exactly. The curvature counts where the
+/// particle slips: its normal reaction turns with the obstacle, and is needed.
 ///
 /// # Errors
-/// [`ContactsError::Contradiction`] and [`ContactsError::OffCone`]; `place` is named in them.
+/// [`ContactsError::Contradiction`], [`ContactsError::OffCone`] and
+/// [`ContactsError::CurvatureWithoutReaction`]; `place` is named in them.
 pub fn with_reaction(
     particle: Particle,
-    along_dofs: [Rational; 2],
+    along_dofs: Option<[Rational; 2]>,
+    curvature: Rational,
     friction: &Rational,
     place: ReactionPlace,
-) -> Result<(Particle, TableReaction), ContactsError> {
+) -> Result<(Particle, Option<TableReaction>), ContactsError> {
+    let slips = matches!(particle.state, ContactState::Slip { .. });
+    let turns = slips && !curvature.is_zero();
+    let Some(along_dofs) = along_dofs else {
+        return match turns {
+            true => Err(ContactsError::CurvatureWithoutReaction { place }),
+            false => Ok((particle, None)),
+        };
+    };
+
     let given = GivenReaction::at(&particle, &along_dofs);
     let own_friction = friction * &particle.friction_factor;
     let is_exact = given.fits(place, particle.state, &own_friction)?;
@@ -611,42 +617,20 @@ pub fn with_reaction(
         cone_ratio: given.cone_ratio(&own_friction),
         along_dofs,
     };
+    let curvature = turns.then(|| Curvature {
+        value: curvature,
+        normal_reaction: given.normal.clone(),
+    });
     let in_particle = is_exact.then_some(Reaction {
         tangential: given.tangential,
         normal: given.normal,
     });
     let particle = Particle {
         reaction: in_particle,
+        curvature,
         ..particle
     };
-    Ok((particle, reaction))
-}
-
-/// The particle on an obstacle of this curvature, which counts where it slips: there its reaction
-/// on the body along its tangential and its normal dof is needed.
-///
-/// # Errors
-/// [`ContactsError::CurvatureWithoutReaction`]; `place` is named in it.
-pub fn with_curvature(
-    particle: Particle,
-    curvature: Rational,
-    along_dofs: Option<&[Rational; 2]>,
-    place: ReactionPlace,
-) -> Result<Particle, ContactsError> {
-    let slips = matches!(particle.state, ContactState::Slip { .. });
-    if !slips || curvature.is_zero() {
-        return Ok(particle);
-    }
-
-    let along_dofs = along_dofs.ok_or(ContactsError::CurvatureWithoutReaction { place })?;
-    let curvature = Curvature {
-        value: curvature,
-        normal_reaction: GivenReaction::at(&particle, along_dofs).normal,
-    };
-    Ok(Particle {
-        curvature: Some(curvature),
-        ..particle
-    })
+    Ok((particle, Some(reaction)))
 }
 
 /// A reaction on the body along the tangent and the normal into the obstacle.

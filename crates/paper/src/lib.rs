@@ -48,7 +48,7 @@ pub use block::Block;
 pub use block_model::BlockModel;
 pub use contacts::{
     ContactTable, ContactsError, ReactionPlace, TableReaction, read_candidates, read_contacts,
-    with_curvature, with_reaction,
+    with_reaction,
 };
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, PlanePoint};

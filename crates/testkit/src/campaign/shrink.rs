@@ -370,12 +370,7 @@ fn with_particle(
 ) -> Result<System, ModelError> {
     let mut particles = system.particles().to_vec();
     change(&mut particles[k]);
-    rebuilt(
-        system,
-        system.stiffness().clone(),
-        system.mass().cloned(),
-        particles,
-    )
+    system.with_particles(particles)
 }
 
 /// What has to stay true of a matrix.

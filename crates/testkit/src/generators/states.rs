@@ -198,9 +198,7 @@ pub fn on_curved_obstacles(
         corners.push(Corner::Curved);
     }
 
-    let stiffness = system.stiffness().clone();
-    let friction = system.friction().cloned();
-    System::new(stiffness, system.mass().cloned(), friction, particles)
+    system.with_particles(particles)
 }
 
 /// The particle with a random normal direction and, one time in three, a rotated frame.
