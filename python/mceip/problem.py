@@ -174,6 +174,22 @@ class Problem:
         minus_a = (rows, columns, [-value for value in values])
         return cls(NativeProblem.pencil(order, minus_a, b_entries, [], "eigenvalue"))
 
+    @classmethod
+    def qeicp(cls, a: Any, b: Any, c: Any) -> Problem:
+        """The quadratic eigenvalue complementarity problem: all t of either sign and x != 0 with
+
+            0 <= x  _|_  (t^2 A + t B + C) x >= 0
+
+        Args:
+            a: A, n x n, of numpy or scipy.sparse: the coefficient of t^2.
+            b: B, n x n.
+            c: C, n x n.
+        """
+        order, a_entries = triplets("a", a)
+        _, b_entries = triplets("b", b, order)
+        _, c_entries = triplets("c", c, order)
+        return cls(NativeProblem.qeicp(order, a_entries, b_entries, c_entries))
+
     def in_window(self, min: Number | None = None, max: Number | None = None) -> Problem:
         """The same problem with the values sought in [min, max]; None is the lowest value that the
         unknown can have (0, for eigenvalues -infinity), and infinity."""

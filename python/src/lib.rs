@@ -157,6 +157,16 @@ impl NativeProblem {
         ))
     }
 
+    /// The quadratic eigenvalue complementarity problem of t^2 A + tB + C of this order.
+    #[staticmethod]
+    fn qeicp(order: usize, a: Triplets, b: Triplets, c: Triplets) -> PyResult<NativeProblem> {
+        made(Problem::qeicp(
+            matrix("a", order, a)?,
+            matrix("b", order, b)?,
+            matrix("c", order, c)?,
+        ))
+    }
+
     /// The same problem with the values sought in [min, max]; `None` is no end.
     fn in_window(&self, min: Option<&str>, max: Option<&str>) -> PyResult<NativeProblem> {
         let min = min.map(|min| number("min", min)).transpose()?;
@@ -186,6 +196,9 @@ impl NativeProblem {
                 system.particles().len()
             ),
             Body::Pencil(pencil) => format!("a pencil of order {}", pencil.order()),
+            Body::Quadratic(quadratic) => {
+                format!("a quadratic pencil of order {}", quadratic.order())
+            }
         }
     }
 

@@ -5,7 +5,9 @@ use mceip_engine::reduction::condense;
 use mceip_exact::whole;
 use mceip_model::file::write_problem;
 use mceip_model::reduction::reduce;
-use mceip_model::{Admissible, Body, Problem, Reduced, ReducedVariable, Window};
+use mceip_model::{
+    Admissible, Body, Problem, RealWindow, Reduced, ReducedVariable, Unknown, Window,
+};
 use std::path::PathBuf;
 
 /// Arguments of `reduce`.
@@ -31,8 +33,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         reduced.pencil
     };
 
-    let window = problem.real_window();
-    let out = Problem::new(Body::Pencil(pencil), problem.unknown(), Window::all())?;
+    // The linear form of a quadratic pencil is that of values that are not negative.
+    let (unknown, window) = match problem.body() {
+        Body::Quadratic(_) => (Unknown::Lambda2, RealWindow::from(problem.window())),
+        Body::Pencil(_) | Body::System(_) => (problem.unknown(), problem.real_window()),
+    };
+    let out = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
     let mut out = out.with_real_window(&window);
     out.name = problem.name.clone();
     out.comment = Some(comment);
@@ -51,6 +57,7 @@ fn comment(args: &Args, problem: &Problem, reduced: &Reduced) -> String {
     let what = match problem.body() {
         Body::System(_) => "reduced by (10)-(16)",
         Body::Pencil(_) => "given as a pencil, nothing to reduce;",
+        Body::Quadratic(_) => "linear form for t >= 0: x, and z = x/(1 + t), which is free;",
     };
     let variables: Vec<String> = reduced.variables.iter().map(variable_text).collect();
 

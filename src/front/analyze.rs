@@ -40,7 +40,7 @@ impl Problem {
         let problem = self.as_model();
         let system = match problem.body() {
             Body::System(system) => Some(system),
-            Body::Pencil(_) => None,
+            Body::Pencil(_) | Body::Quadratic(_) => None,
         };
 
         Analyze {

@@ -6,7 +6,7 @@ use mceip_check::certificate::Certificate;
 use mceip_check::{Accepted, Rejected};
 use mceip_exact::Rational;
 use mceip_model::file::{read_problem, read_problem_file, write_problem};
-use mceip_model::{Body, Particle, Pencil, RealWindow, System, Unknown, Window};
+use mceip_model::{Body, Particle, Pencil, QuadraticPencil, RealWindow, System, Unknown, Window};
 use std::path::Path;
 
 /// A mixed complementarity eigenproblem: find t and x != 0 with
@@ -124,6 +124,30 @@ impl Problem {
         let minus_a = a.into_exact().negated();
         let pencil = Pencil::new(minus_a, b.into_exact(), Vec::new())?;
         Problem::new(Body::Pencil(pencil), Unknown::Eigenvalue)
+    }
+
+    /// The quadratic eigenvalue complementarity problem of three n x n matrices: all t of either
+    /// sign and x != 0 with
+    ///
+    /// ```text
+    /// 0 <= x _|_ (t^2 A + t B + C) x >= 0
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Model`]: shapes.
+    ///
+    /// ```
+    /// use mceip::{Matrix, Problem};
+    /// // x = 1: t^2 - 3 t + 2 = 0.
+    /// let [a, b, c] = [1.0, -3.0, 2.0].map(|v| Matrix::from_rows(&[[v]]));
+    /// let all = Problem::qeicp(a?, b?, c?)?.complete().run()?;
+    /// assert_eq!(all.solutions().len(), 2);
+    /// # Ok::<(), mceip::Error>(())
+    /// ```
+    pub fn qeicp(a: Matrix, b: Matrix, c: Matrix) -> Result<Problem, Error> {
+        let [a, b, c] = [a, b, c].map(Matrix::into_exact);
+        let quadratic = QuadraticPencil::new(c, b, a)?;
+        Problem::new(Body::Quadratic(quadratic), Unknown::Eigenvalue)
     }
 
     /// The problem over all values that the unknown can have.

@@ -291,7 +291,7 @@ fn characteristic_polynomial(rows: &[Vec<i64>]) -> Poly {
         entries[i] = Integer::from(-1);
         minus_identity.push(entries);
     }
-    determinant(&a, &minus_identity)
+    determinant(&[a, minus_identity])
 }
 
 /// The least eigenvalue of the symmetric part is no larger than any real eigenvalue: sym(A) - r I

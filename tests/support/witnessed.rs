@@ -113,9 +113,7 @@ impl Entries {
 
     /// det(A + tB) on a support.
     fn determinant(&self, support: &[usize]) -> Poly {
-        let a = block(&self.a, support);
-        let b = block(&self.b, support);
-        determinant(&a, &b)
+        determinant(&[&self.a, &self.b].map(|matrix| block(matrix, support)))
     }
 }
 

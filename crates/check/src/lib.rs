@@ -175,11 +175,11 @@ impl<'a> ClaimChecker<'a> {
         }
     }
 
-    /// The checker of claims about (A, -B).
+    /// The checker of claims about the reflected problem.
     fn reflected(&self) -> ClaimChecker<'a> {
         ClaimChecker {
             problem: self.problem,
-            rows: self.rows.reflected(),
+            rows: self.rows.reflected(self.problem),
         }
     }
 

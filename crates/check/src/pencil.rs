@@ -4,6 +4,13 @@
 //! its entries in A and in B integers. A positive multiple of row i changes y_i by a positive
 //! factor, so that (12)-(14) keep their solutions.
 //!
+//! Of a quadratic pencil A + tB + t^2 C they are those of the pencil of x and z = x / (1 + t), for
+//! t >= 0 (`spec/certificates.md`, 5.2):
+//!
+//! ```text
+//!     y / (1 + t) = ((B - C) + t C) x + (A - B + C) z,      0 = (1 + t) z - x
+//! ```
+//!
 //! Of a mechanical system, the change of variables (10), (11) is read as two lists of vectors over
 //! the degrees of freedom: v = T x with the columns
 //!
@@ -39,7 +46,7 @@
 use crate::reason::Reason;
 use mceip_exact::{Integer, Rational, Sparse, cleared, common_denominator};
 use mceip_model::{Body, ContactState, Direction, Particle, Problem, System, Unknown};
-use num_traits::{One as _, Signed as _};
+use num_traits::{One as _, Signed as _, Zero as _};
 use std::collections::BTreeMap;
 
 /// One row of A + tB with denominators cleared: (column, coefficient in A, coefficient in B).
@@ -84,12 +91,21 @@ impl Rows {
 
                 rows
             }
+            Body::Quadratic(quadratic) => {
+                let [a, b, c] = quadratic.coefficients();
+                of_quadratic(a, b, c)
+            }
             Body::System(system) => of_system(system, problem.unknown()),
         }
     }
 
-    /// The rows of the reflected pencil (A, -B).
-    pub(super) fn reflected(&self) -> Rows {
+    /// The rows of the reflected problem: of (A, -B), or of (A, -B, C).
+    pub(super) fn reflected(&self, problem: &Problem) -> Rows {
+        if let Body::Quadratic(quadratic) = problem.body() {
+            let [a, b, c] = quadratic.coefficients();
+            return of_quadratic(a, &b.negated(), c);
+        }
+
         let mut reflected = self.clone();
         for (_, _, b) in reflected.rows.iter_mut().flatten() {
             *b = -&*b;
@@ -215,6 +231,39 @@ impl Rows {
             }),
         }
     }
+}
+
+/// The rows of the linear form of A + tB + t^2 C: first those of y / (1 + t), then those of z.
+fn of_quadratic(a: &Sparse, b: &Sparse, c: &Sparse) -> Rows {
+    let n = a.rows();
+    let one = Rational::one();
+    let mut rows = Rows::with_capacity(2 * n);
+    for i in 0..n {
+        let mut constant: BTreeMap<usize, Rational> = BTreeMap::new();
+        let mut slope = RationalRow::new();
+        for (j, a_ij) in a.row(i) {
+            *constant.entry(n + j).or_default() += a_ij;
+        }
+        for (j, b_ij) in b.row(i) {
+            *constant.entry(*j).or_default() += b_ij;
+            *constant.entry(n + j).or_default() -= b_ij;
+        }
+        for (j, c_ij) in c.row(i) {
+            *constant.entry(*j).or_default() -= c_ij;
+            *constant.entry(n + j).or_default() += c_ij;
+            slope.push((*j, c_ij.clone()));
+        }
+
+        constant.retain(|_, value| !value.is_zero());
+        rows.push(&Vec::from_iter(constant), &slope, false);
+    }
+    for i in 0..n {
+        let x_i = (i, -&one);
+        let z_i = (n + i, one.clone());
+        rows.push(&[x_i, z_i.clone()], &[z_i], true);
+    }
+
+    rows
 }
 
 /// The pencils T0 and T1 of a mechanical system with T(t, mu) = T0(t) + mu T1(t) in the rows of

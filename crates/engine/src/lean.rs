@@ -190,7 +190,7 @@ condensed_over_friction!(PresenceCertificate);
 fn over_friction(problem: &Problem) -> Result<Vec<Pencil>, ModelError> {
     match problem.body() {
         Body::System(system) => Ok(friction_parts(system)?.into()),
-        Body::Pencil(_) => Ok(Vec::new()),
+        Body::Pencil(_) | Body::Quadratic(_) => Ok(Vec::new()),
     }
 }
 

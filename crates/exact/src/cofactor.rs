@@ -1,13 +1,13 @@
-//! Cofactors of a matrix pencil: the null vector of a singular value by Cramer's rule, all values
+//! Cofactors of a matrix polynomial: the null vector of a singular value by Cramer's rule, all values
 //! at once.
 //!
-//! The cofactors C_1, ..., C_n of the first row of M = A + tB satisfy sum_j m_ij C_j = 0 for i > 1
+//! The cofactors C_1, ..., C_n of the first row of M = A + tB + ... satisfy sum_j m_ij C_j = 0 for i > 1
 //! (expansion of a determinant with two equal rows) and sum_j m_1j C_j = det M. So where det M = 0
 //! the vector C is in the kernel of M, and where C != 0 the rank is n - 1 and C spans it.
 //!
 //! C is, up to a sign, the null vector of the last n - 1 rows whose entries are their maximal
-//! minors; fraction-free elimination finds it at the integers t = 0, ..., n - 1, and interpolation
-//! gives the polynomials, of degree < n.
+//! minors; fraction-free elimination finds it at the integers t = 0, ..., d (n - 1), d the degree of
+//! M, and interpolation gives the polynomials.
 //!
 //! Called by the oracle and the search, which then need no elimination at an algebraic number.
 
@@ -15,22 +15,24 @@ use super::kernel::{newton_interpolate, values_at};
 use super::{Integer, Poly};
 use num_traits::{One, Zero};
 
-/// The cofactors of the first row of A + tB, as polynomials of degree < n in t.
+/// The cofactors of the first row of A + tB + ..., of degree d in t and order n, as polynomials of
+/// degree d (n - 1) at most.
 ///
-/// Where det(A + tB) = 0 the vector is in the kernel (expansion along any other row has two equal
+/// Where the determinant is 0 the vector is in the kernel (expansion along any other row has two equal
 /// rows), and where it is not zero the rank is n - 1, so that it spans the kernel. The values at
-/// t = 0, ..., n - 1 determine it, as they do the determinant ([`super::determinant`]).
+/// t = 0, ..., d (n - 1) determine it, as they do the determinant ([`super::determinant`]).
 ///
 /// ```
 /// use mceip_exact::{first_row_cofactors, Integer, Poly};
 /// let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
-/// let c = first_row_cofactors(&z([[1, 2], [3, 4]]), &z([[1, 0], [0, 1]]));
+/// let c = first_row_cofactors(&[z([[1, 2], [3, 4]]), z([[1, 0], [0, 1]])]);
 /// assert_eq!(c, [Poly::from_ints(&[4, 1]), Poly::from_ints(&[-3])]);
 /// ```
-pub fn first_row_cofactors(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Poly> {
-    let n = a.len();
-    let cofactors_at: Vec<Vec<Integer>> = (0..n)
-        .map(|t| integer_cofactors(values_at(a, b, t)))
+pub fn first_row_cofactors(coefficients: &[Vec<Vec<Integer>>]) -> Vec<Poly> {
+    let n = coefficients.first().map_or(0, Vec::len);
+    let degree = n.saturating_sub(1) * coefficients.len().saturating_sub(1);
+    let cofactors_at: Vec<Vec<Integer>> = (0..=degree)
+        .map(|t| integer_cofactors(values_at(coefficients, t)))
         .collect();
 
     let mut polynomials = Vec::with_capacity(n);
@@ -150,7 +152,7 @@ mod tests {
     #[test]
     fn cofactors_of_a_pencil_are_polynomials() {
         let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
-        let c = first_row_cofactors(&z([[1, 2], [3, 4]]), &z([[1, 0], [0, 1]]));
+        let c = first_row_cofactors(&[z([[1, 2], [3, 4]]), z([[1, 0], [0, 1]])]);
         assert_eq!(c, [Poly::from_ints(&[4, 1]), Poly::from_ints(&[-3])]);
     }
 }

@@ -1,6 +1,6 @@
 //! Dense matrices over Q, for the small problems that elimination is run on.
 //!
-//! Elimination itself runs on integers: [`Dense::clear_rows`] makes the rows of two matrices
+//! Elimination itself runs on integers: [`Dense::clear_rows`] makes the rows of several matrices
 //! integral together. Called by the oracle and by whoever condenses small pencils.
 
 use super::{Integer, Rational, cleared, common_denominator};
@@ -52,19 +52,21 @@ impl Dense {
         &self.data[start..start + self.cols]
     }
 
-    /// Each row of `self` and the same row of `other` multiplied by one positive integer that
-    /// makes both integral. Kernels and signs of products with a vector are unchanged.
-    pub fn clear_rows(&self, other: &Dense) -> (Vec<Vec<Integer>>, Vec<Vec<Integer>>) {
-        let mut own_rows = Vec::with_capacity(self.rows());
-        let mut other_rows = Vec::with_capacity(self.rows());
-
-        for i in 0..self.rows() {
-            let clear = common_denominator(self.row(i).iter().chain(other.row(i)));
-            own_rows.push(integral(self.row(i), &clear));
-            other_rows.push(integral(other.row(i), &clear));
+    /// The rows of matrices with the same number of rows, those with one number multiplied by one
+    /// positive integer that makes them all integral. Kernels and signs of products with a vector
+    /// are unchanged.
+    pub fn clear_rows<const N: usize>(matrices: [&Dense; N]) -> [Vec<Vec<Integer>>; N] {
+        let count = matrices.first().map_or(0, |matrix| matrix.rows());
+        let mut cleared = matrices.map(|_| Vec::with_capacity(count));
+        for i in 0..count {
+            let rows = matrices.map(|matrix| matrix.row(i));
+            let clear = common_denominator(rows.iter().copied().flatten());
+            for (list, row) in cleared.iter_mut().zip(rows) {
+                list.push(integral(row, &clear));
+            }
         }
 
-        (own_rows, other_rows)
+        cleared
     }
 }
 
@@ -109,7 +111,7 @@ mod tests {
         let a = Dense::from_rows(vec![vec![rational(1, 2), whole(0)]]);
         let b = Dense::from_rows(vec![vec![rational(1, 3), whole(-1)]]);
 
-        let (integers_of_a, integers_of_b) = a.clear_rows(&b);
+        let [integers_of_a, integers_of_b] = Dense::clear_rows([&a, &b]);
 
         assert_eq!(integers_of_a, [[Integer::from(3), Integer::from(0)]]);
         assert_eq!(integers_of_b, [[Integer::from(2), Integer::from(-6)]]);

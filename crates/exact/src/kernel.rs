@@ -21,34 +21,44 @@
 use super::{Algebraic, Integer, Poly, Sign};
 use num_traits::{One, Zero};
 
-/// det(A + tB) as a polynomial in t, for square integer matrices given by rows.
+/// det(A + tB + ...) as a polynomial in t, for square integer matrices of one order n given by
+/// rows: the coefficients of 1, t, ..., t^d.
 ///
-/// The degree is at most n, so the values at t = 0, ..., n determine it; they are integer
+/// The degree is at most d n, so the values at t = 0, ..., d n determine it; they are integer
 /// determinants, and Newton's forward differences put them together without a fraction.
 /// The determinant of the empty pencil is 1.
 ///
 /// ```
 /// use mceip_exact::{determinant, Integer, Poly};
 /// let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
-/// let d = determinant(&z([[1, 2], [3, 4]]), &z([[1, 0], [0, 1]]));
+/// let d = determinant(&[z([[1, 2], [3, 4]]), z([[1, 0], [0, 1]])]);
 /// assert_eq!(d, Poly::from_ints(&[-2, 5, 1])); // (1+t)(4+t) - 6
 /// ```
-pub fn determinant(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Poly {
-    let values = (0..=a.len())
-        .map(|t| integer_determinant(values_at(a, b, t)))
+pub fn determinant(coefficients: &[Vec<Vec<Integer>>]) -> Poly {
+    let order = coefficients.first().map_or(0, Vec::len);
+    let degree = order * coefficients.len().saturating_sub(1);
+    let values = (0..=degree)
+        .map(|t| integer_determinant(values_at(coefficients, t)))
         .collect();
     newton_interpolate(values)
 }
 
-/// A + tB at an integer.
-pub(super) fn values_at(a: &[Vec<Integer>], b: &[Vec<Integer>], t: usize) -> Vec<Vec<Integer>> {
-    let mut rows = Vec::with_capacity(a.len());
-    for (a_row, b_row) in a.iter().zip(b) {
-        let entries = a_row.iter().zip(b_row);
-        rows.push(entries.map(|(a_ij, b_ij)| a_ij + b_ij * t).collect());
+/// A + tB + ... at an integer, by Horner's rule.
+pub(super) fn values_at(coefficients: &[Vec<Vec<Integer>>], t: usize) -> Vec<Vec<Integer>> {
+    let Some((highest, lower)) = coefficients.split_last() else {
+        return Vec::new();
+    };
+
+    let mut values = highest.clone();
+    for coefficient in lower.iter().rev() {
+        for (row, added) in values.iter_mut().zip(coefficient) {
+            for (value, added) in row.iter_mut().zip(added) {
+                *value = &*value * t + added;
+            }
+        }
     }
 
-    rows
+    values
 }
 
 /// Determinant of an integer matrix by Bareiss' elimination; every division is exact.
@@ -330,12 +340,31 @@ mod tests {
         let b: &[&[i64]] = &[&[1, 0, 2, 0], &[-3, 0, 0, 1], &[0, 4, 1, 0], &[2, 0, 0, 5]];
         let singular: &[&[i64]] = &[&[1, 2], &[2, 4]];
 
-        let det = determinant(&integers(a), &integers(b));
-        let det_of_singular = determinant(&integers(singular), &integers(singular));
+        let det = determinant(&[integers(a), integers(b)]);
+        let det_of_singular = determinant(&[integers(singular), integers(singular)]);
 
         assert_eq!(det, leibniz(&pencil(a, b)));
         assert!(det_of_singular.is_zero());
-        assert_eq!(determinant(&[], &[]), Poly::from_ints(&[1]));
+        assert_eq!(determinant(&[]), Poly::from_ints(&[1]));
+    }
+
+    /// With a coefficient of t^2 the degree is twice the order.
+    #[test]
+    fn determinant_of_a_quadratic_pencil_agrees_with_leibniz() {
+        let a: &[&[i64]] = &[&[0, 2, -1], &[4, 0, 5], &[7, -2, 0]];
+        let b: &[&[i64]] = &[&[1, 0, 2], &[-3, 0, 0], &[0, 4, 1]];
+        let c: &[&[i64]] = &[&[2, 0, 1], &[0, -1, 3], &[1, 1, 0]];
+
+        let mut quadratic = pencil(a, b);
+        for (row, added) in quadratic.iter_mut().zip(c) {
+            for (entry, added) in row.iter_mut().zip(*added) {
+                *entry += &Poly::from_ints(&[0, 0, *added]);
+            }
+        }
+
+        let det = determinant(&[a, b, c].map(integers));
+        assert_eq!(det.degree(), Some(6));
+        assert_eq!(det, leibniz(&quadratic));
     }
 
     #[test]

@@ -8,7 +8,10 @@
 //! anybody can do, the same mathematical problem; so a certificate that names the digest is bound
 //! to its matrices. `spec/formats.md` specifies the text, so that other programs can write it.
 
-use super::{Body, ContactState, Direction, LoadedBody, Particle, Pencil, Problem, Radii, System};
+use super::{
+    Body, ContactState, Direction, LoadedBody, Particle, Pencil, Problem, QuadraticPencil, Radii,
+    System,
+};
 use mceip_exact::Sparse;
 use num_traits::{One as _, Zero as _};
 use sha2::{Digest, Sha256};
@@ -22,6 +25,7 @@ pub(super) fn text(problem: &Problem) -> String {
 
     match problem.body() {
         Body::Pencil(pencil) => write_pencil(&mut out, pencil),
+        Body::Quadratic(quadratic) => write_quadratic(&mut out, quadratic),
         Body::System(system) => write_system(&mut out, system),
     }
 
@@ -76,6 +80,14 @@ fn write_pencil(out: &mut String, pencil: &Pencil) {
 
     write_matrix(out, "a", pencil.a());
     write_matrix(out, "b", pencil.b());
+}
+
+fn write_quadratic(out: &mut String, quadratic: &QuadraticPencil) {
+    line(out, "pencil");
+    line(out, "free");
+    for (name, matrix) in ["a", "b", "c"].into_iter().zip(quadratic.coefficients()) {
+        write_matrix(out, name, matrix);
+    }
 }
 
 fn write_system(out: &mut String, system: &System) {

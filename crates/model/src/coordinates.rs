@@ -271,7 +271,7 @@ mod tests {
 
         let name_of = |problem: &Problem| match problem.body() {
             Body::System(system) => system.particles()[0].name.clone(),
-            Body::Pencil(_) => None,
+            Body::Pencil(_) | Body::Quadratic(_) => None,
         };
         assert_eq!(name_of(&named).as_deref(), Some("left foot"));
         assert_eq!(name_of(&unnamed), None);

@@ -324,6 +324,15 @@ pub enum ModelError {
         /// What it is posed on.
         got: String,
     },
+    /// A quadratic pencil with another unknown than an eigenvalue.
+    #[error(
+        "pencil.c: expected the unknown eigenvalue for a quadratic pencil, got {got} (for lambda2 \
+         and mu leave c out)"
+    )]
+    Quadratic {
+        /// The unknown.
+        got: &'static str,
+    },
     /// The window of an eigenvalue problem that is empty, or that ends below 0.
     #[error(
         "expected a window min <= max with 0 <= max, got [{min}, {max}] (for values below 0 alone \

@@ -171,12 +171,11 @@ impl<'a> Admissible<'a> {
                 require_definite("P1", "A_ff (K_ff)", &a_ff)?;
                 require_zero_rows(&pencil.b, f)?;
             }
-            Unknown::Lambda2 => {
+            Unknown::Lambda2 | Unknown::Eigenvalue => {
                 let b_ff = pencil.b.submatrix(f, f);
                 require_definite("P2", "A_ff (K_ff)", &a_ff)?;
                 require_definite("P2", "B_ff (M_ff)", &b_ff)?;
             }
-            Unknown::Eigenvalue => pencil.require_no_free()?,
         }
 
         Ok(Admissible { pencil, unknown })

@@ -6,13 +6,18 @@
 //!
 //! A problem is read from a file ([`crate::file::read_problem`]) or put together here.
 
-use super::{Coordinates, ModelError, Pencil, RealWindow, System, Unknown, Window, canonical};
+use super::{
+    Coordinates, ModelError, Pencil, QuadraticPencil, RealWindow, System, Unknown, Window,
+    canonical,
+};
 
 /// What the eigenproblem is posed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Body {
     /// A pencil given directly.
     Pencil(Pencil),
+    /// A quadratic pencil, whose eigenvalues are sought.
+    Quadratic(QuadraticPencil),
     /// A mechanical system, to be reduced by (10)-(16).
     System(System),
 }
@@ -48,6 +53,12 @@ impl Problem {
             Body::System(system) => system.require_for(unknown)?,
             Body::Pencil(pencil) if unknown == Unknown::Eigenvalue => pencil.require_no_free()?,
             Body::Pencil(_) => {}
+            Body::Quadratic(_) if unknown == Unknown::Eigenvalue => {}
+            Body::Quadratic(_) => {
+                return Err(ModelError::Quadratic {
+                    got: unknown.word(),
+                });
+            }
         }
 
         Ok(Problem {
@@ -117,12 +128,14 @@ impl Problem {
     /// `None` where none are wanted.
     pub fn reflected(&self) -> Option<Problem> {
         let window = self.negative.clone()?;
-        let Body::Pencil(pencil) = &self.body else {
-            return None;
+        let body = match &self.body {
+            Body::Pencil(pencil) => Body::Pencil(pencil.reflected()),
+            Body::Quadratic(quadratic) => Body::Quadratic(quadratic.reflected()),
+            Body::System(_) => return None,
         };
 
         let mut reflected = self.clone().with_window(window);
-        reflected.body = Body::Pencil(pencil.reflected());
+        reflected.body = body;
         reflected.is_reflected = true;
         Some(reflected)
     }
@@ -146,7 +159,7 @@ impl Problem {
     /// Is it posed on one body, or on a pencil?
     pub fn is_exact(&self) -> bool {
         match &self.body {
-            Body::Pencil(_) => true,
+            Body::Pencil(_) | Body::Quadratic(_) => true,
             Body::System(system) => system.is_exact(),
         }
     }

@@ -5,7 +5,7 @@ use super::enumeration::Enumeration;
 use super::integer_pencil::IntegerPencil;
 use super::range;
 use mceip_exact::Algebraic;
-use mceip_model::{Pencil, RealWindow};
+use mceip_model::RealWindow;
 use std::cmp::Ordering;
 
 impl Enumeration {
@@ -35,8 +35,12 @@ impl Enumeration {
     /// described, and puts everything into canonical order. [`super::enumerate`] has done it; who
     /// fills an answer by hand (solutions of kernels of dimension 1, `wide`, `continua`) calls it
     /// at the end.
-    pub fn describe(&mut self, pencil: &Pencil, window: impl Into<RealWindow>) {
-        self.describe_new(&IntegerPencil::of(pencil), &window.into());
+    pub fn describe<'a>(
+        &mut self,
+        pencil: impl Into<IntegerPencil<'a>>,
+        window: impl Into<RealWindow>,
+    ) {
+        self.describe_new(&pencil.into(), &window.into());
         self.finish();
     }
 

@@ -1,8 +1,9 @@
-//! The pencil A + tB with integer entries, and the linear algebra that (24)-(26) ask of its blocks.
+//! The pencil A + tB, or A + tB + t^2 C, with integer entries, and the linear algebra that (24)-(26)
+//! ask of its blocks.
 //!
-//! Each row of (A, B) is multiplied by a positive integer that clears its denominators. Neither the
-//! kernel of a block of rows and columns nor the sign of an entry of y = (A + tB) x changes, and
-//! (24)-(26) speak of nothing else.
+//! Each row of the coefficients is multiplied by a positive integer that clears its denominators.
+//! Neither the kernel of a block of rows and columns nor the sign of an entry of y = (A + tB) x
+//! changes, and (24)-(26) speak of nothing else.
 //!
 //! A block is named by the list `active` of its rows and columns, ascending: the free variables and
 //! the variables of a support. Vectors are lists of integer polynomials in t.
@@ -11,14 +12,14 @@
 //! (supports whose block is singular for every t), and by makers of wrong answers.
 
 use mceip_exact::{
-    Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at, submatrix,
+    Algebraic, Dense, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at, submatrix,
 };
-use mceip_model::Pencil;
+use mceip_model::{Pencil, QuadraticPencil};
 
 /// A pencil whose rows have been made integral, and its free variables.
 pub struct IntegerPencil<'a> {
-    a: Vec<Vec<Integer>>,
-    b: Vec<Vec<Integer>>,
+    /// Those of 1, t and, of a quadratic pencil, t^2.
+    coefficients: Vec<Vec<Vec<Integer>>>,
     free: &'a [usize],
 }
 
@@ -29,17 +30,43 @@ pub(super) struct Eigenspace {
     pub(super) basis: Vec<Vec<Poly>>,
 }
 
-impl<'a> IntegerPencil<'a> {
-    /// The pencil with each row times what clears its denominators.
-    pub fn of(pencil: &'a Pencil) -> Self {
-        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
-        let free = pencil.free();
-        IntegerPencil { a, b, free }
+/// The pencil with each row times what clears its denominators.
+impl<'a> From<&'a Pencil> for IntegerPencil<'a> {
+    fn from(pencil: &'a Pencil) -> Self {
+        let [a, b] = [pencil.a(), pencil.b()].map(|matrix| matrix.to_dense());
+        IntegerPencil {
+            coefficients: Dense::clear_rows([&a, &b]).into(),
+            free: pencil.free(),
+        }
     }
+}
 
+/// The same of a quadratic pencil, as it is given.
+impl From<&QuadraticPencil> for IntegerPencil<'_> {
+    fn from(quadratic: &QuadraticPencil) -> Self {
+        let [a, b, c] = quadratic.coefficients().map(|matrix| matrix.to_dense());
+        IntegerPencil {
+            coefficients: Dense::clear_rows([&a, &b, &c]).into(),
+            free: &[],
+        }
+    }
+}
+
+impl IntegerPencil<'_> {
     /// Number of variables.
     pub fn order(&self) -> usize {
-        self.a.len()
+        self.coefficients[0].len()
+    }
+
+    /// Number of free variables.
+    pub(super) fn free(&self) -> usize {
+        self.free.len()
+    }
+
+    /// The complementarity variables, ascending.
+    pub(super) fn complementarity_variables(&self) -> Vec<usize> {
+        let all = 0..self.order();
+        all.filter(|&i| self.is_complementarity(i)).collect()
     }
 
     /// Is variable i a complementarity variable, that is, not a free one?
@@ -50,14 +77,15 @@ impl<'a> IntegerPencil<'a> {
     /// A bound, as a power of two, of every coefficient of the determinant of every block: its
     /// exponent.
     ///
-    /// The determinant at |t| = 1 is at most prod_i (|a_i| + |b_i|) over the rows (Hadamard's
+    /// The determinant at |t| = 1 is at most prod_i (|a_i| + |b_i| + ...) over the rows (Hadamard's
     /// inequality), and so is each of its coefficients (Cauchy's estimate). The exponent is summed
-    /// up row by row from (|a_i| + |b_i|)^2 <= 2 (|a_i|^2 + |b_i|^2).
+    /// up row by row from (|a_i| + |b_i|)^2 <= 2 (|a_i|^2 + |b_i|^2), with 3 for three.
     pub(super) fn coefficient_bits(&self) -> u64 {
         let mut bits = 0;
-        for (a_row, b_row) in self.a.iter().zip(&self.b) {
-            let square: Integer = a_row.iter().chain(b_row).map(|entry| entry * entry).sum();
-            let bound: Integer = square * 2;
+        for i in 0..self.order() {
+            let row = self.coefficients.iter().flat_map(|matrix| &matrix[i]);
+            let square: Integer = row.map(|entry| entry * entry).sum();
+            let bound: Integer = square * self.coefficients.len();
             bits += bound.bits().div_ceil(2);
         }
 
@@ -71,14 +99,13 @@ impl<'a> IntegerPencil<'a> {
         active
     }
 
-    /// Entry (i, j) of A + tB.
+    /// Entry (i, j) of A + tB + ...
     fn entry(&self, i: usize, j: usize) -> Poly {
-        let constant = self.a[i][j].clone();
-        let slope = self.b[i][j].clone();
-        Poly::new(vec![constant, slope])
+        let coefficients = self.coefficients.iter();
+        Poly::new(coefficients.map(|matrix| matrix[i][j].clone()).collect())
     }
 
-    /// The block of A + tB, over `Z[t]`.
+    /// The block of A + tB + ..., over `Z[t]`.
     pub fn block(&self, active: &[usize]) -> Vec<Vec<Poly>> {
         active
             .iter()
@@ -88,10 +115,15 @@ impl<'a> IntegerPencil<'a> {
 
     /// The determinant of the block, a polynomial in t.
     pub fn determinant(&self, active: &[usize]) -> Poly {
-        determinant(
-            &submatrix(&self.a, active, active),
-            &submatrix(&self.b, active, active),
-        )
+        determinant(&self.coefficients_of(active))
+    }
+
+    /// The coefficients of the block.
+    fn coefficients_of(&self, active: &[usize]) -> Vec<Vec<Vec<Integer>>> {
+        let coefficients = self.coefficients.iter();
+        coefficients
+            .map(|matrix| submatrix(matrix, active, active))
+            .collect()
     }
 
     /// The kernel of the block at each of the given roots of its determinant.
@@ -105,10 +137,7 @@ impl<'a> IntegerPencil<'a> {
             return Vec::new();
         }
 
-        let cofactors = first_row_cofactors(
-            &submatrix(&self.a, active, active),
-            &submatrix(&self.b, active, active),
-        );
+        let cofactors = first_row_cofactors(&self.coefficients_of(active));
 
         let mut eigenspaces = Vec::with_capacity(roots.len());
         for mut value in roots {
@@ -133,7 +162,7 @@ impl<'a> IntegerPencil<'a> {
         x
     }
 
-    /// y = (A + tB) x.
+    /// y = (A + tB + ...) x.
     pub fn times(&self, x: &[Poly]) -> Vec<Poly> {
         let mut y = Vec::with_capacity(self.order());
         for i in 0..self.order() {

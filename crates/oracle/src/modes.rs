@@ -69,7 +69,8 @@ impl ModeList {
 ///
 /// The work is (2^n_s - 1) 4^n_z determinants: meant for a few particles.
 pub fn enumerate_modes(split: &Reduced, window: &Window) -> ModeList {
-    examine_all(split, window, |_, _| ControlFlow::Continue(()))
+    let integers = IntegerPencil::from(&split.pencil);
+    examine_all(split, &integers, window, |_, _| ControlFlow::Continue(()))
 }
 
 /// [`enumerate_modes`] with a callback (choices done, choices in all) after each choice; breaking
@@ -86,9 +87,10 @@ pub fn enumerate_modes_with(
 ) -> Result<ModeList, OracleError> {
     // Two bits say which of the four modes a z particle has.
     let bits = split.normalised().len() + 2 * split.zero.len();
-    require_size(&split.pencil, "slip variables + 2 z particles", bits)?;
+    let integers = IntegerPencil::from(&split.pencil);
+    require_size(&integers, "slip variables + 2 z particles", bits)?;
 
-    let mut found = examine_all(split, window, progress);
+    let mut found = examine_all(split, &integers, window, progress);
     found
         .solutions
         .sort_by(|a, b| compare_places((&a.value, &a.slip), (&b.value, &b.slip)));
@@ -98,10 +100,10 @@ pub fn enumerate_modes_with(
 
 fn examine_all(
     split: &Reduced,
+    integers: &IntegerPencil<'_>,
     window: &Window,
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> ModeList {
-    let integers = IntegerPencil::of(&split.pencil);
     let modes = choices_of_modes(split.zero.len());
     let slip_variables = split.normalised();
     let slip_sets = (1u64 << slip_variables.len()) - 1;
@@ -118,7 +120,7 @@ fn examine_all(
                 slip: &slip,
                 zero,
             };
-            choice.examine(&integers, window, &mut found);
+            choice.examine(integers, window, &mut found);
 
             found.choices += 1;
             if progress(found.choices, found.choices_total).is_break() {

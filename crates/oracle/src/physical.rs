@@ -231,7 +231,7 @@ fn examine(
 ) -> Result<(), ModelError> {
     let equations = equations(system, modes);
     let pencil = square_pencil(&equations)?;
-    let integers = IntegerPencil::of(&pencil);
+    let integers = IntegerPencil::from(&pencil);
     let all = integers.active(&[]);
 
     let det = integers.determinant(&all);

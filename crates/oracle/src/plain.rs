@@ -12,13 +12,14 @@
 //! is listed twice. Two things are not decided here: kernels of more than one dimension (`cone`)
 //! and blocks whose determinant vanishes identically (`range`).
 //!
-//! Input: any [`Pencil`], no hypothesis, and a closed [`Window`]. Every decision is exact.
+//! Input: any pencil or quadratic pencil, no hypothesis, and a closed [`RealWindow`]. Every decision
+//! is exact.
 
 use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::{Eigenspace, IntegerPencil};
 use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
-use mceip_model::{Pencil, RealWindow};
+use mceip_model::RealWindow;
 use std::ops::ControlFlow;
 
 /// Largest number of complementarity variables: each one more doubles the supports.
@@ -61,8 +62,8 @@ pub enum OracleError {
 /// let found = enumerate(&pencil, &Window::all()).unwrap();
 /// assert_eq!(found.solutions[0].decimal(17), "2");
 /// ```
-pub fn enumerate(
-    pencil: &Pencil,
+pub fn enumerate<'a>(
+    pencil: impl Into<IntegerPencil<'a>>,
     window: impl Into<RealWindow>,
 ) -> Result<Enumeration, OracleError> {
     enumerate_with(pencil, window, |_, _| ControlFlow::Continue(()))
@@ -73,16 +74,16 @@ pub fn enumerate(
 ///
 /// # Errors
 /// As [`enumerate`].
-pub fn enumerate_with(
-    pencil: &Pencil,
+pub fn enumerate_with<'a>(
+    pencil: impl Into<IntegerPencil<'a>>,
     window: impl Into<RealWindow>,
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<Enumeration, OracleError> {
-    let slip = pencil.slip();
+    let pencil = &pencil.into();
+    let slip = pencil.complementarity_variables();
     require_size(pencil, "slip variables", slip.len())?;
 
     let window = &window.into();
-    let integers = IntegerPencil::of(pencil);
     let total = 1u64 << slip.len();
     let mut found = Enumeration {
         supports_total: total,
@@ -91,8 +92,8 @@ pub fn enumerate_with(
 
     for number in 0..total {
         let support = support_of_number(&slip, number);
-        examine(&integers, &support, window, &mut found);
-        found.describe_new(&integers, window);
+        examine(pencil, &support, window, &mut found);
+        found.describe_new(pencil, window);
 
         found.supports_done += 1;
         if progress(found.supports_done, total).is_break() {
@@ -107,15 +108,14 @@ pub fn enumerate_with(
 
 /// Demands that an enumeration of 2^count parts ends; `what` is counted.
 pub(super) fn require_size(
-    pencil: &Pencil,
+    pencil: &IntegerPencil<'_>,
     what: &'static str,
     count: usize,
 ) -> Result<(), OracleError> {
-    let free = pencil.free().len();
     require_at_most(MAX_SLIP as u64, what, count as u64)?;
-    require_at_most(MAX_FREE as u64, "free variables", free as u64)?;
+    require_at_most(MAX_FREE as u64, "free variables", pencil.free() as u64)?;
 
-    let bits = coefficient_bits(pencil);
+    let bits = pencil.coefficient_bits();
     require_at_most(MAX_BITS, "bits of a determinant's coefficients", bits)
 }
 
@@ -137,21 +137,21 @@ fn support_of_number(slip: &[usize], number: u64) -> Vec<usize> {
 
 /// log2 of a bound of every coefficient of every support's determinant; [`enumerate`] takes at most
 /// [`MAX_BITS`].
-pub fn coefficient_bits(pencil: &Pencil) -> u64 {
-    IntegerPencil::of(pencil).coefficient_bits()
+pub fn coefficient_bits<'a>(pencil: impl Into<IntegerPencil<'a>>) -> u64 {
+    pencil.into().coefficient_bits()
 }
 
 /// One support by the definition: appends what [`enumerate`] finds on it. For callers that go
 /// through supports in their own way; nothing is sorted, no limit is checked.
 ///
 /// `support` lists complementarity variables, ascending.
-pub fn examine_support(
-    pencil: &Pencil,
+pub fn examine_support<'a>(
+    pencil: impl Into<IntegerPencil<'a>>,
     support: &[usize],
     window: impl Into<RealWindow>,
     found: &mut Enumeration,
 ) {
-    examine(&IntegerPencil::of(pencil), support, &window.into(), found);
+    examine(&pencil.into(), support, &window.into(), found);
 }
 
 /// One support: the linear eigenproblem (25) on free and slip variables, then (26).
@@ -285,7 +285,7 @@ fn admissible(
 mod tests {
     use super::*;
     use mceip_exact::{Rational, Sparse, rational, whole};
-    use mceip_model::Window;
+    use mceip_model::{Pencil, Window};
 
     const IDENTITY: &[&[i64]] = &[&[1, 0], &[0, 1]];
 

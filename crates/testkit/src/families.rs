@@ -386,6 +386,6 @@ fn degenerate_instance(
 pub fn system_of(problem: &Problem) -> &System {
     match problem.body() {
         Body::System(system) => system,
-        Body::Pencil(_) => panic!("a pencil in place of a system"),
+        Body::Pencil(_) | Body::Quadratic(_) => panic!("a pencil in place of a system"),
     }
 }

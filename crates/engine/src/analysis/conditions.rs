@@ -205,7 +205,7 @@ fn eliminate(matrix: &mut Dense, k: usize) {
 fn smallest_root(a: &Sparse, b: &Sparse) -> Option<Algebraic> {
     let entries = a.entries().chain(b.entries());
     let scale = Rational::from_integer(common_denominator(entries.map(|(_, _, v)| v)));
-    let polynomial = determinant(&integral(a, &scale), &integral(b, &scale));
+    let polynomial = determinant(&[integral(a, &scale), integral(b, &scale)]);
 
     let roots = roots_in(&polynomial, &Rational::zero(), None);
     roots.into_iter().next()

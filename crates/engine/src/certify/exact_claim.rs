@@ -99,7 +99,7 @@ impl TriedSupport<'_> {
     fn values_near(&self) -> Result<Vec<Algebraic>, AttemptFailure> {
         let a = self.active_block(|entry| &entry.a);
         let b = self.active_block(|entry| &entry.b);
-        let determinant = determinant(&a, &b);
+        let determinant = determinant(&[a, b]);
 
         if determinant.is_zero() {
             self.values_of_singular_pencil()

@@ -17,7 +17,7 @@ use crate::report::Listed;
 use crate::tolerance::VALUE_FLOOR;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::{Pencil, Problem, Reduced};
+use mceip_model::{Body, Pencil, Problem, Reduced};
 use num_traits::{Signed, Zero};
 
 /// Errors of a reported solution, relative to the proven one.
@@ -77,6 +77,8 @@ struct Proven {
     value: ProvenNumber,
     /// x over all variables of the pencil, in the claim's own scale.
     x: Vec<ProvenNumber>,
+    /// How many of them a report has.
+    reported: usize,
 }
 
 impl Proven {
@@ -86,9 +88,17 @@ impl Proven {
         let mut proven = Proven {
             value: ProvenNumber::exact(finite(&listed.value)?),
             x: Vec::new(),
+            reported: listed.x.len(),
         };
         for decimal in &listed.x {
             proven.x.push(ProvenNumber::exact(finite(decimal)?));
+        }
+        if let Body::Quadratic(_) = problem.body() {
+            // z of the linear form.
+            let divisor = 1.0 + proven.value.center.abs();
+            let z = |x_i: &ProvenNumber| ProvenNumber::exact(x_i.center / divisor);
+            let z: Vec<ProvenNumber> = proven.x.iter().map(z).collect();
+            proven.x.extend(z);
         }
 
         if let Claim::EnclosedSolution(claim) = claim {
@@ -119,7 +129,8 @@ pub(super) fn agreement(
     let proven = Proven::of(problem, reduced, claim)?;
     let floor = value_floor(&reduced.pencil, support(claim), &proven.x);
     let value = value_error(reported.candidate.value, proven.value, floor);
-    let (mut worst, scaled) = worst_component(&reported.candidate.x, &proven.x)?;
+    let compared = &proven.x[..proven.reported];
+    let (mut worst, scaled) = worst_component(&reported.candidate.x, compared)?;
 
     if let Some(off) = reported.off.filter(|off| off.size > worst.error) {
         worst = Component {

@@ -308,13 +308,21 @@ fn given_x(
     problem: &Problem,
     reduced: &Reduced,
 ) -> Result<GivenX, BadPoint> {
+    let order = match problem.body() {
+        Body::Quadratic(quadratic) => quadratic.order(),
+        Body::Pencil(_) | Body::System(_) => reduced.pencil.order(),
+    };
     if let Some(x) = &raw.x {
-        require_length(index, "x", reduced.pencil.order(), x.len())?;
-        let x = rationals(x);
+        require_length(index, "x", order, x.len())?;
+        let x = match problem.body() {
+            Body::Quadratic(quadratic) => {
+                quadratic.with_free_variables(&raw.value.0, &rationals(x))
+            }
+            Body::Pencil(_) | Body::System(_) => rationals(x),
+        };
         return Ok(GivenX { x, off: None });
     }
 
-    let order = reduced.pencil.order();
     let missing = |expected| BadPoint::NoVector {
         solution: index,
         expected,

@@ -43,6 +43,6 @@ use mceip_model::{Body, Problem, ZeroVariables};
 pub(crate) fn zero_of(problem: &Problem) -> Vec<ZeroVariables> {
     match problem.body() {
         Body::System(system) => zero_variables(system),
-        Body::Pencil(_) => Vec::new(),
+        Body::Pencil(_) | Body::Quadratic(_) => Vec::new(),
     }
 }

@@ -13,11 +13,11 @@ use crate::search::complete::Completed;
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{
-    Algebraic, Integer, Poly, Rational, cleared, common_denominator, enclosing_decimals, from_f64,
-    ratio_to_decimal, to_decimal, to_f64,
+    Algebraic, Integer, Poly, Rational, Sparse, cleared, common_denominator, enclosing_decimals,
+    from_f64, ratio_to_decimal, to_decimal, to_f64,
 };
 use mceip_model::reduction::lift;
-use mceip_model::{Body, Pencil, Problem, Reduced};
+use mceip_model::{Body, Problem, Reduced};
 use mceip_oracle::{Cone, Enumeration, Solution};
 use std::cmp::Ordering;
 
@@ -69,9 +69,19 @@ impl Listed {
             norm: s.normaliser(&reduced.normalised()),
         };
 
-        let y = digits.of_rows(&reduced.pencil, &s.x);
+        // z of the linear form of a quadratic pencil, after x, is not listed.
+        let (coefficients, x) = match problem.body() {
+            Body::Quadratic(quadratic) => {
+                let x = &s.x[..quadratic.order()];
+                (quadratic.coefficients().to_vec(), x)
+            }
+            Body::Pencil(_) | Body::System(_) => {
+                (vec![reduced.pencil.a(), reduced.pencil.b()], &s.x[..])
+            }
+        };
+        let y = digits.of_rows(&coefficients, x);
         let lifted = match problem.body() {
-            Body::Pencil(_) => None,
+            Body::Pencil(_) | Body::Quadratic(_) => None,
             Body::System(system) => {
                 let lifted = lift(system, problem.unknown(), &reduced.variables, &s.x);
                 let v = digits.of_all(&lifted.v, &lifted.v_scale);
@@ -80,7 +90,7 @@ impl Listed {
             }
         };
 
-        let x = digits.of_all(&s.x, &Integer::from(1));
+        let x = digits.of_all(x, &Integer::from(1));
         let mut value = digits.value;
         let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
         let polynomial = value.poly().coeffs().to_vec();
@@ -187,12 +197,12 @@ impl Listed {
                 let exact = match problem.body() {
                     Body::System(system) => flattened(system, lifted),
                     // The checker accepts no such claim; it is listed by what it says of itself.
-                    Body::Pencil(pencil) => ExactSolution {
+                    Body::Pencil(_) | Body::Quadratic(_) => ExactSolution {
                         support: lifted.support.clone(),
                         biactive: lifted.biactive.clone(),
                         polynomial: lifted.polynomial.clone(),
                         interval: lifted.interval.clone(),
-                        x: vec![Vec::new(); pencil.order()],
+                        x: vec![Vec::new(); reduced.pencil.order()],
                     },
                 };
                 of_exact(problem, reduced, claim, &exact)
@@ -312,11 +322,11 @@ impl Digits {
         list.iter().map(|p| self.of(p, scale)).collect()
     }
 
-    /// The rows of (A + tB) x.
-    fn of_rows(&mut self, pencil: &Pencil, x: &[Poly]) -> Vec<String> {
-        let mut rows = Vec::with_capacity(pencil.order());
-        for i in 0..pencil.order() {
-            let (row, scale) = row_times(pencil, i, x);
+    /// The rows of (A + tB + ...) x.
+    fn of_rows(&mut self, coefficients: &[&Sparse], x: &[Poly]) -> Vec<String> {
+        let mut rows = Vec::with_capacity(x.len());
+        for i in 0..x.len() {
+            let (row, scale) = row_times(coefficients, i, x);
             rows.push(self.of(&row, &scale));
         }
         rows
@@ -381,7 +391,9 @@ fn of_point(
     let mut y = listed.y;
     let active = active(&reduced.pencil, support);
     for i in active.into_iter().chain(biactive.iter().copied()) {
-        y[i] = "0".into();
+        if let Some(y_i) = y.get_mut(i) {
+            *y_i = "0".into();
+        }
     }
 
     Listed {
@@ -413,19 +425,17 @@ fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, exact: &ExactSo
     }
 }
 
-/// Row i of (A + tB) x as an integer polynomial and the positive integer it was multiplied by.
-pub(crate) fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
-    let a = pencil.a().row(i);
-    let b = pencil.b().row(i);
-    let scale = common_denominator(a.iter().chain(b).map(|(_, v)| v));
+/// Row i of (A + tB + ...) x, the coefficients in ascending order, as an integer polynomial and the
+/// positive integer it was multiplied by.
+pub(crate) fn row_times(coefficients: &[&Sparse], i: usize, x: &[Poly]) -> (Poly, Integer) {
+    let entries = coefficients.iter().flat_map(|matrix| matrix.row(i));
+    let scale = common_denominator(entries.map(|(_, v)| v));
 
     let mut sum = Poly::default();
-    for (j, v) in a {
-        sum += &x[*j].scale(&cleared(v, &scale));
-    }
-
-    for (j, v) in b {
-        sum += &x[*j].scale(&cleared(v, &scale)).shift(1);
+    for (power, matrix) in coefficients.iter().enumerate() {
+        for (j, v) in matrix.row(i) {
+            sum += &x[*j].scale(&cleared(v, &scale)).shift(power);
+        }
     }
 
     (sum, scale)
@@ -434,9 +444,9 @@ pub(crate) fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{Interval, Sparse, rational, whole};
+    use mceip_exact::{Interval, rational, whole};
     use mceip_model::reduction::reduce;
-    use mceip_model::{Unknown, Window};
+    use mceip_model::{Pencil, Unknown, Window};
 
     /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1).
     fn listed(x: &[f64]) -> Listed {

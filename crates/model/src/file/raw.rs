@@ -8,7 +8,8 @@ use super::matrix::{RawMatrix, RawRadius};
 use super::{Number, Object, SystemFile, Word};
 use crate::{
     Body, BodyNode, ContactState, Coordinates, Curvature, LoadedBody, ModelError, Particle, Pencil,
-    PrescribedDisplacement, Problem, Radii, Reaction, RealWindow, System, Unknown, Window,
+    PrescribedDisplacement, Problem, QuadraticPencil, Radii, Reaction, RealWindow, System, Unknown,
+    Window,
 };
 use mceip_exact::{Rational, Sparse, whole};
 use num_traits::Zero;
@@ -42,6 +43,7 @@ struct RawWindow {
 struct RawPencil {
     a: RawMatrix,
     b: RawMatrix,
+    c: Option<RawMatrix>,
     #[serde(default)]
     free: Vec<usize>,
 }
@@ -123,7 +125,7 @@ impl RawProblem {
         self.name_particles()?;
         let unknown = self.unknown.0;
         let body = match (self.pencil, self.system) {
-            (Some(Object(pencil)), None) => Body::Pencil(pencil.build(folder)?),
+            (Some(Object(pencil)), None) => pencil.build(folder)?,
             (None, Some(Object(system))) => Body::System(system.build(folder)?),
             (None, None) => return Err(ModelError::Body { got: "neither" }),
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
@@ -132,7 +134,7 @@ impl RawProblem {
         let coordinates = match (self.coordinates, &body) {
             (None, _) => None,
             (Some(Object(coordinates)), Body::System(system)) => Some(coordinates.build(system)?),
-            (Some(_), Body::Pencil(_)) => {
+            (Some(_), Body::Pencil(_) | Body::Quadratic(_)) => {
                 return Err(ModelError::Coordinates {
                     expected: "coordinates of a system only",
                     got: "those of a pencil".into(),
@@ -237,10 +239,19 @@ impl RawWindow {
 }
 
 impl RawPencil {
-    fn build(self, folder: &Path) -> Result<Pencil, ModelError> {
+    fn build(self, folder: &Path) -> Result<Body, ModelError> {
         let a = self.a.build("a", folder)?;
         let b = self.b.build("b", folder)?;
-        Pencil::new(a, b, self.free)
+        let Some(c) = self.c else {
+            return Ok(Body::Pencil(Pencil::new(a, b, self.free)?));
+        };
+
+        if let Some(index) = self.free.first() {
+            let got = format!("a quadratic pencil with the free variable {index}");
+            return Err(ModelError::Eigenvalue { got });
+        }
+        let c = c.build("c", folder)?;
+        Ok(Body::Quadratic(QuadraticPencil::new(a, b, c)?))
     }
 }
 

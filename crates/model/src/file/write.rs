@@ -7,7 +7,8 @@
 use super::{LOADS_FORMAT, LoadsFile, Number, PROBLEM_FORMAT, write_matrix_market};
 use crate::LoadedBody;
 use crate::{
-    Body, ContactState, Coordinates, Particle, Pencil, Problem, Radii, RealWindow, System,
+    Body, ContactState, Coordinates, Particle, Pencil, Problem, QuadraticPencil, Radii, RealWindow,
+    System,
 };
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One as _, Zero as _};
@@ -27,6 +28,7 @@ pub fn write_problem(problem: &Problem) -> String {
 
     match problem.body() {
         Body::Pencil(pencil) => out.insert("pencil".into(), write_pencil(pencil)),
+        Body::Quadratic(quadratic) => out.insert("pencil".into(), write_quadratic(quadratic)),
         Body::System(system) => out.insert("system".into(), write_system(system)),
     };
 
@@ -41,6 +43,11 @@ pub fn write_problem_beside_matrices(problem: &Problem) -> Vec<(&'static str, St
             "pencil",
             vec![("a", "A.mtx", pencil.a()), ("b", "B.mtx", pencil.b())],
         ),
+        Body::Quadratic(quadratic) => {
+            let [a, b, c] = quadratic.coefficients();
+            let matrices = vec![("a", "A.mtx", a), ("b", "B.mtx", b), ("c", "C.mtx", c)];
+            ("pencil", matrices)
+        }
         Body::System(system) => {
             let mut matrices = vec![("stiffness", "K.mtx", system.stiffness())];
             matrices.extend(system.mass().map(|mass| ("mass", "M.mtx", mass)));
@@ -185,6 +192,11 @@ fn write_pencil(pencil: &Pencil) -> Value {
         "b": write_sparse(pencil.b()),
         "free": pencil.free(),
     })
+}
+
+fn write_quadratic(quadratic: &QuadraticPencil) -> Value {
+    let [a, b, c] = quadratic.coefficients().map(write_sparse);
+    json!({ "a": a, "b": b, "c": c })
 }
 
 fn write_system(system: &System) -> Value {

@@ -41,17 +41,20 @@ use crate::{
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One as _, Signed as _};
 
-/// The pencil of a problem. A pencil stands for itself; a system goes through (10)-(16).
+/// The pencil of a problem. A pencil stands for itself, a quadratic one for its linear form; a
+/// system goes through (10)-(16).
 ///
 /// # Errors
 /// As [`reduce_system`].
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
+    let given = |pencil| Reduced {
+        pencil,
+        variables: Vec::new(),
+        zero: Vec::new(),
+    };
     match problem.body() {
-        Body::Pencil(pencil) => Ok(Reduced {
-            pencil: pencil.clone(),
-            variables: Vec::new(),
-            zero: Vec::new(),
-        }),
+        Body::Pencil(pencil) => Ok(given(pencil.clone())),
+        Body::Quadratic(quadratic) => Ok(given(quadratic.linear_form()?)),
         Body::System(system) => reduce_system(system, problem.unknown()),
     }
 }

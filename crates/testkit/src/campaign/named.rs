@@ -174,7 +174,7 @@ pub(super) fn known(seed: &Seed) -> Result<Made> {
             let scaled = with_scaled_rows(&mut rng, pencil);
             Problem::new(Body::Pencil(scaled), unknown, Window::all())?
         }
-        Body::System(_) => known.problem,
+        Body::Quadratic(_) | Body::System(_) => known.problem,
     };
 
     let mut made = Made::new(problem, vec![]);

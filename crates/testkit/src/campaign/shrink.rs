@@ -11,7 +11,7 @@ use super::expected::Expected;
 use super::family::CampaignCase;
 use crate::families::Instance;
 use mceip_exact::{Integer, Rational, Sparse, rational, whole};
-use mceip_model::{Body, ModelError, Particle, Pencil, Problem, System, Window};
+use mceip_model::{Body, ModelError, Particle, Pencil, Problem, QuadraticPencil, System, Window};
 use mceip_oracle::TwoParticles;
 use mceip_paper::two_particles;
 use num_traits::{One, Signed, Zero};
@@ -100,7 +100,8 @@ impl Size {
     fn of(case: &CampaignCase) -> Size {
         let problem = &case.instance.problem;
         let mut size = match problem.body() {
-            Body::Pencil(pencil) => Size::of_pencil(pencil),
+            Body::Pencil(pencil) => Size::of_matrices(&[pencil.a(), pencil.b()]),
+            Body::Quadratic(quadratic) => Size::of_matrices(&quadratic.coefficients()),
             Body::System(system) => Size::of_system(system),
         };
 
@@ -111,11 +112,11 @@ impl Size {
         size
     }
 
-    fn of_pencil(pencil: &Pencil) -> Size {
+    fn of_matrices(matrices: &[&Sparse]) -> Size {
         Size {
-            order: pencil.order(),
-            features: pencil.a().entries().count() + pencil.b().entries().count(),
-            bits: bits_of_matrix(pencil.a()) + bits_of_matrix(pencil.b()),
+            order: matrices.first().map_or(0, |matrix| matrix.rows()),
+            features: matrices.iter().map(|m| m.entries().count()).sum(),
+            bits: matrices.iter().map(|m| bits_of_matrix(m)).sum(),
         }
     }
 
@@ -238,6 +239,11 @@ fn smaller_bodies(body: &Body) -> Vec<Body> {
             .flatten()
             .map(Body::Pencil)
             .collect(),
+        Body::Quadratic(quadratic) => smaller_quadratics(quadratic)
+            .into_iter()
+            .flatten()
+            .map(Body::Quadratic)
+            .collect(),
         Body::System(system) => smaller_systems(system)
             .into_iter()
             .flatten()
@@ -269,6 +275,31 @@ fn smaller_pencils(pencil: &Pencil) -> Tried<Pencil> {
     }
     for b in simpler_matrices(pencil.b(), MatrixShape::Any) {
         out.push(Pencil::new(pencil.a().clone(), b, pencil.free().to_vec()));
+    }
+    out
+}
+
+/// The quadratic pencil without one variable, or with one simpler entry.
+fn smaller_quadratics(quadratic: &QuadraticPencil) -> Tried<QuadraticPencil> {
+    let n = quadratic.order();
+    let [a, b, c] = quadratic.coefficients();
+    let mut out = Vec::new();
+
+    for dropped in 0..n {
+        let keep: Vec<usize> = (0..n).filter(|i| *i != dropped).collect();
+        let [a, b, c] = [a, b, c].map(|matrix| matrix.submatrix(&keep, &keep));
+        out.push(QuadraticPencil::new(a, b, c));
+    }
+
+    let simpler = |matrix| simpler_matrices(matrix, MatrixShape::Any);
+    for simpler_a in simpler(a) {
+        out.push(QuadraticPencil::new(simpler_a, b.clone(), c.clone()));
+    }
+    for simpler_b in simpler(b) {
+        out.push(QuadraticPencil::new(a.clone(), simpler_b, c.clone()));
+    }
+    for simpler_c in simpler(c) {
+        out.push(QuadraticPencil::new(a.clone(), b.clone(), simpler_c));
     }
     out
 }

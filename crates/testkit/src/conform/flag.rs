@@ -135,7 +135,7 @@ impl ShownFlags {
         self.put(Flag::Mu, problem.unknown() == Unknown::Mu);
 
         match problem.body() {
-            Body::Pencil(_) => self.put(Flag::Pencil, true),
+            Body::Pencil(_) | Body::Quadratic(_) => self.put(Flag::Pencil, true),
             Body::System(system) => self.look_at_system(system),
         }
     }

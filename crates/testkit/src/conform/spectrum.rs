@@ -28,7 +28,7 @@ pub(super) fn eigenpairs(
     min: &Rational,
     max: Option<&Rational>,
 ) -> Vec<(EigenvectorKind, Solution)> {
-    let integers = IntegerPencil::of(pencil);
+    let integers = IntegerPencil::from(pencil);
     let slip = pencil.slip();
 
     let mut out = Vec::new();

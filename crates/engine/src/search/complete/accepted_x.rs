@@ -120,7 +120,7 @@ fn vanishing_y(
             continue;
         }
 
-        let (y, _) = row_times(pencil, i, x);
+        let (y, _) = row_times(&[pencil.a(), pencil.b()], i, x);
         let rest = y.pseudo_rem(value.poly());
         if rest.is_zero() {
             vanishing.push(i);

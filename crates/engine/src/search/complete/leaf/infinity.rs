@@ -17,7 +17,7 @@ use crate::search::complete::pieces::view::View;
 use crate::search::complete::region::{SearchRegion, support};
 use crate::tolerance::AT_INFINITY;
 use mceip_check::certificate::{Node, RootOutcome};
-use mceip_exact::{Integer, Poly, generic_kernel};
+use mceip_exact::{Dense, Integer, Poly, generic_kernel};
 use mceip_model::Pencil;
 use num_traits::Zero;
 
@@ -103,7 +103,7 @@ fn limit(pencil: &Pencil, support: &[usize], reversed: bool) -> Option<Vec<Integ
 
     let a = pencil.a().submatrix(&active, &active).to_dense();
     let b = pencil.b().submatrix(&active, &active).to_dense();
-    let (a, b) = a.clear_rows(&b);
+    let [a, b] = Dense::clear_rows([&a, &b]);
     let mut rows = Vec::with_capacity(active.len());
     for (p, i) in active.iter().enumerate() {
         let by_a = !reversed && pencil.free().contains(i);

@@ -16,7 +16,7 @@ use super::circuit::{
 };
 use mceip_check::certificate::{Alone, Exact, Member, Polynomials};
 use mceip_exact::{
-    Algebraic, Generators, Integer, Poly, Rational, Sign, cone_generators, determinant,
+    Algebraic, Dense, Generators, Integer, Poly, Rational, Sign, cone_generators, determinant,
     first_row_cofactors, generic_kernel, kernel_at, submatrix,
 };
 use mceip_model::Pencil;
@@ -92,7 +92,8 @@ impl Where<'_> {
 impl Supported {
     /// `None` where the integers of the pencil are too long to decide a support of this size.
     pub(super) fn new(pencil: &Pencil, support: &[usize]) -> Option<Supported> {
-        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
+        let [a, b] = [pencil.a(), pencil.b()].map(|matrix| matrix.to_dense());
+        let [a, b] = Dense::clear_rows([&a, &b]);
         let active: Vec<usize> = support.iter().chain(pencil.free()).copied().collect();
 
         let entries = a.iter().chain(&b).flatten();
@@ -449,18 +450,13 @@ impl Supported {
     }
 
     fn minor(&self, rows: &[usize], columns: &[usize]) -> Poly {
-        determinant(
-            &submatrix(&self.a, rows, columns),
-            &submatrix(&self.b, rows, columns),
-        )
+        determinant(&[&self.a, &self.b].map(|matrix| submatrix(matrix, rows, columns)))
     }
 
     /// w on `rows` with w'T = det e_1 on `columns`.
     fn left_cofactors(&self, rows: &[usize], columns: &[usize]) -> Vec<Poly> {
-        first_row_cofactors(
-            &transposed_block(&self.a, rows, columns),
-            &transposed_block(&self.b, rows, columns),
-        )
+        let transposed = |matrix| transposed_block(matrix, rows, columns);
+        first_row_cofactors(&[transposed(&self.a), transposed(&self.b)])
     }
 
     /// A vector over these indices, over all variables of the pencil.
