@@ -50,8 +50,7 @@ impl Problem {
         let of_sign = reflected.as_ref().unwrap_or(problem);
         let reduced = reduce(of_sign)?;
         let certifier = Certifier::new(of_sign, &reduced.pencil);
-        let x = x.to_vec();
-        let mut candidate = Candidate { value, x };
+        let mut candidate = Candidate::given(problem, value, x.to_vec());
         if reflected.is_some() {
             candidate = candidate.reflected();
         }

@@ -3,7 +3,7 @@
 use crate::tolerance::{SUPPORT_GUESSES, VALUE_RADIUS};
 use mceip_check::backward_error;
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::{Problem, Window, ZeroVariables};
+use mceip_model::{Body, Problem, Window, ZeroVariables};
 use num_traits::{Signed as _, Zero as _};
 
 /// The format of solution reports.
@@ -69,6 +69,20 @@ pub fn distance(x: &[f64], other: &[f64]) -> f64 {
 }
 
 impl Candidate {
+    /// A value and x over the variables that the problem was given with.
+    ///
+    /// Of a quadratic pencil z = x / (1 + |t|) of its linear form is added, which is that of the
+    /// reflected pencil where t < 0.
+    pub fn given(problem: &Problem, value: f64, mut x: Vec<f64>) -> Candidate {
+        if let Body::Quadratic(_) = problem.body() {
+            let divisor = 1.0 + value.abs();
+            let z: Vec<f64> = x.iter().map(|x_i| x_i / divisor).collect();
+            x.extend(z);
+        }
+
+        Candidate { value, x }
+    }
+
     /// The largest component among the slip variables, at least 0.
     pub(crate) fn largest_slip(&self, slip: &[usize]) -> f64 {
         slip.iter().map(|&i| self.x[i]).fold(0.0, f64::max)

@@ -17,7 +17,7 @@
 use super::pencil::require_square;
 use super::{ModelError, Pencil};
 use mceip_exact::{Rational, Sparse};
-use num_traits::{One as _, Signed as _};
+use num_traits::One as _;
 
 /// A + tB + t^2 C, square matrices of one order; all variables are complementarity variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -94,13 +94,6 @@ impl QuadraticPencil {
         let [a, b] = [constant, slope].map(|list| Sparse::from_entries(2 * n, 2 * n, list));
         Pencil::new(a, b, (n..2 * n).collect())
     }
-
-    /// x and z of the linear form, of the pencil itself for t >= 0 and of the reflected one below.
-    pub fn with_free_variables(&self, value: &Rational, x: &[Rational]) -> Vec<Rational> {
-        let divisor = Rational::one() + value.abs();
-        let z = x.iter().map(|x_i| x_i / &divisor);
-        x.iter().cloned().chain(z).collect()
-    }
 }
 
 #[cfg(test)]
@@ -126,7 +119,8 @@ mod tests {
 
         for t in [whole(0), whole(1), rational(7, 3), whole(100)] {
             for x in [[whole(1), whole(0)], [whole(2), rational(-5, 7)]] {
-                let both = quadratic.with_free_variables(&t, &x);
+                let z = x.clone().map(|x_i| x_i / (whole(1) + &t));
+                let both = [x.clone(), z].concat();
                 let y = linear.a().add_scaled(&t, linear.b()).times(&both);
 
                 let at_t = a.add_scaled(&t, b).add_scaled(&(&t * &t), c);

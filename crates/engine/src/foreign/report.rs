@@ -285,10 +285,8 @@ fn reported(
         solution: index,
         field: "value",
     })?;
-    let candidate = Candidate {
-        value,
-        x: scaled_exactly(&given.x).unwrap_or_else(|| vec![0.0; given.x.len()]),
-    };
+    let x = scaled_exactly(&given.x).unwrap_or_else(|| vec![0.0; given.x.len()]);
+    let candidate = Candidate::given(problem, value, x);
     Ok(Reported {
         candidate: candidate.one_sided(&reduced.zero),
         off: given.off,
@@ -314,12 +312,7 @@ fn given_x(
     };
     if let Some(x) = &raw.x {
         require_length(index, "x", order, x.len())?;
-        let x = match problem.body() {
-            Body::Quadratic(quadratic) => {
-                quadratic.with_free_variables(&raw.value.0, &rationals(x))
-            }
-            Body::Pencil(_) | Body::System(_) => rationals(x),
-        };
+        let x = rationals(x);
         return Ok(GivenX { x, off: None });
     }
 
