@@ -93,46 +93,48 @@ End Regions.
 
 Arguments no_other {R} t x.
 
-(* A list of solutions of one sort as one of another sort: each good x becomes f x. *)
+(* A list of solutions of one sort as one of another sort: each x that is good at its t becomes
+   f x. *)
 Section Transfer.
 
 Variables (R : realFieldType) (solution solution' : R -> (nat -> R) -> Prop).
 Variables (same same' : (nat -> R) -> (nat -> R) -> Prop).
 Variables (lies lies' : region -> R -> (nat -> R) -> Prop).
-Variables (good : (nat -> R) -> Prop) (f : (nat -> R) -> nat -> R).
+Variables (good : R -> (nat -> R) -> Prop) (f : (nat -> R) -> nat -> R).
 Variables other other' : R -> (nat -> R) -> Prop.
 
-Hypothesis f_solution : forall t x, good x -> solution t x -> solution' t (f x).
-Hypothesis f_lies : forall r t x, good x -> lies r t x -> lies' r t (f x).
-Hypothesis f_same : forall x x', good x -> good x' -> same' (f x) (f x') -> same x x'.
+Hypothesis f_solution : forall t x, good t x -> solution t x -> solution' t (f x).
+Hypothesis f_lies : forall r t x, good t x -> lies r t x -> lies' r t (f x).
+Hypothesis f_same : forall t x x', good t x -> good t x' -> same' (f x) (f x') -> same x x'.
 Hypothesis f_onto : forall t v, solution' t v -> exists x, [/\ solution t x,
-  forall x', good x' -> same x' x -> same' (f x') v & other t x -> other' t v].
+  forall x', good t x' -> same x' x -> same' (f x') v & other t x -> other' t v].
 
 Lemma listed_transfer lo hi ys :
-  (forall y t x, List.In y ys -> solution t x -> lies (yield_region y) t x -> good x) ->
+  (forall y t x, List.In y ys -> solution t x -> lies (yield_region y) t x -> good t x) ->
   all_listed solution same lies lo hi ys other ->
   all_listed solution' same' lies' lo hi ys other'.
 Proof.
 move=> good_in [l [sz sols vals pairs every]].
-have goods m : List.In m l -> good m.2.
+have goods m : List.In m l -> good m.1 m.2.
   move=> m_in; have [y y_in [_ reg]] := Forall2_in vals m_in.
   by have [sol _] := sols m m_in; apply: good_in y_in sol reg.
 exists [seq (m.1, f m.2) | m <- l]; split.
 - by rewrite size_map.
 - move=> m /List.in_map_iff[m' [<- m'_in]] /=; have [sol bt] := sols _ m'_in.
-  by split=> //; apply: f_solution => //; apply: goods.
+  by split=> //; apply: f_solution => //; apply: (goods m').
 - elim: vals goods {sz sols pairs every} => [|y m ys' l' [bt reg] _ IH] goods /=; constructor.
-    by split=> //; apply: f_lies => //; apply: goods; left.
+    by split=> //; apply: f_lies => //; apply: (goods m); left.
   by apply: IH => m' m'_in; apply: goods; right.
 - elim: pairs goods {sz sols vals every} => [|m l' different _ IH] goods /=; constructor.
     apply/List.Forall_forall => m' /List.in_map_iff[m2 [<- m2_in]] /= [eq_t is_same].
     have /List.Forall_forall/(_ _ m2_in) := different; apply; split=> //.
-    by apply: f_same is_same; apply: goods; [left | right].
+    apply: (f_same (t := m.1)) is_same; first by apply: (goods m); left.
+    by rewrite -eq_t; apply: (goods m2); right.
   by apply: IH => m' m'_in; apply: goods; right.
 move=> t v /f_onto[x [sol same_v other_v]] bt.
-have [[m m_in [-> is_same]]|oth] := every t x sol bt; last by right; apply: other_v.
+have [[m m_in [eq_t is_same]]|oth] := every t x sol bt; last by right; apply: other_v.
 left; exists (m.1, f m.2); first by apply/List.in_map_iff; exists m.
-by split=> //=; apply: same_v is_same; apply: goods.
+by split=> //=; apply: same_v is_same; rewrite eq_t; apply: (goods m).
 Qed.
 
 End Transfer.

@@ -59,7 +59,7 @@ Set Printing Width 96.
 
 Extraction "kernel.ml"
   answer integral_answer scaled flat flat_body geometric_of slips slipping with_zero long_normal
-  complementarity zero_system_of pencil_of_integral support_pencil
+  complementarity signed_pencils zero_system_of pencil_of_integral support_pencil
   sliding_poly pressure_poly right_poly left_poly check_solution_claim reaction_poly
   regions_found families_of regions_open zero_undecided pencil_of blocks_of condensed slip zero
   infinity window check_whole check_end

@@ -4,6 +4,10 @@
    ones by one positive factor, and so are its tangents and normals; solutions stay, and so do the
    signs of rates and rows.
 
+   Two problems are *equivalent* if they have the same solutions, with the same signs of rates and
+   rows; what is said of the one then holds of the other ([equivalent_meaning]).  The vectors of one
+   may have more components.
+
    Theorem [scaled_equivalent]: if the integral problem is wellformed, it has the solutions, the
    rates and the rows of the given problem, the latter up to positive factors.
    Theorem [scaled_meaning]: a statement that holds of the integral problem holds of the given one.
@@ -141,12 +145,19 @@ Qed.
 Definition same_property T (P P' : option T) (same : T -> T -> Prop) :=
   match P, P' with Some p, Some p' => same p p' | None, None => True | _, _ => False end.
 
-Record equivalent (P P' : semantics R) : Prop := Equivalent {
+(* The solutions of P' are those of P, [lift] of them: P' may have more components, which P does not
+   look at. *)
+Record equivalent_by (lift : R -> (nat -> R) -> nat -> R) (P P' : semantics R) : Prop :=
+  Equivalent {
   same_variables : variables P = variables P';
-  same_solutions : forall t v, solves P t v <-> solves P' t v;
-  same_multiples : forall v v', same P v v' <-> same P' v v';
+  solves_lifted : forall t v, solves P t v -> solves P' t (lift t v);
+  solves_given : forall t v, solves P' t v -> solves P t v;
+  rates_lifted : forall t v j, (j < size (variables P))%N -> rate P (lift t v) j = rate P v j;
+  lifted_same : forall t v v', same P (lift t v) v' <-> same P v v';
+  same_lifted : forall t v v', same P v' (lift t v) <-> same P v' v;
+  same_multiples : forall t v v', solves P' t v -> solves P' t v' -> same P v v' <-> same P' v v';
   same_rates : forall v j, (j < size (variables P))%N -> same_sign (rate P v j) (rate P' v j);
-  same_rows : forall t v j, (j < size (variables P))%N ->
+  same_rows : forall t v j, solves P' t v -> (j < size (variables P))%N ->
     same_sign (row P t v j) (row P' t v j);
   same_moves : same_property (moves_at P) (moves_at P')
     (fun m m' => forall lambda2 mu v, m lambda2 mu v <-> m' lambda2 mu v);
@@ -154,10 +165,12 @@ Record equivalent (P P' : semantics R) : Prop := Equivalent {
   same_points : same_property (solved_by P) (solved_by P')
     (fun s s' => forall z, s z <-> s' z) }.
 
+Definition equivalent := equivalent_by (fun=> id).
+
 Section Meaning.
 
-Variables P P' : semantics R.
-Hypothesis E : equivalent P P'.
+Variables (lift : R -> (nat -> R) -> nat -> R) (P P' : semantics R).
+Hypothesis E : equivalent_by lift P P'.
 
 Lemma equivalent_region r t v : lies_in_region P r t v <-> lies_in_region P' r t v.
 Proof.
@@ -170,11 +183,17 @@ split=> -[bt signs]; split=> // i lt_i; have := signs i lt_i; have sg := same_ra
 by rewrite (sign_gt0 sg).
 Qed.
 
+Lemma lifted_region r t v : lies_in_region P' r t (lift t v) <-> lies_in_region P r t v.
+Proof.
+apply: (iff_trans (iff_sym (equivalent_region r t (lift t v)))).
+by split=> -[bt signs]; split=> // i lt_i; have := signs i lt_i; rewrite (rates_lifted E).
+Qed.
+
 Lemma equivalent_asserted lo hi a : asserted_holds P' lo hi a -> asserted_holds P lo hi a.
 Proof.
-case=> t [v [sol bt bt' signs]]; exists t, v; split=> //; first exact/(same_solutions E).
+case=> t [v [sol bt bt' signs]]; exists t, v; split=> //; first exact: (solves_given E).
 move=> j lt_j; have := signs j; rewrite -(same_variables E) => /(_ lt_j)[pos zero bia free].
-have sg := same_rates E v lt_j; have sg' := same_rows E t v lt_j.
+have sg := same_rates E v lt_j; have sg' := same_rows E sol lt_j.
 split=> [/pos|/zero|out /(bia out)|out /(free out)].
 - by rewrite (sign_gt0 sg).
 - by move/(sign_0 sg).
@@ -198,24 +217,25 @@ Qed.
 Lemma equivalent_solutions lo hi c : all_solutions_are P' lo hi c -> all_solutions_are P lo hi c.
 Proof.
 move=> /solutions_are listed; apply/solutions_are.
-apply: (listed_transfer (good := fun=> True) (f := id) _ _ _ _ _ listed) => //.
-- by move=> t v _ /(same_solutions E).
+apply: (listed_transfer (good := solves P') (f := id) _ _ _ _ _ listed) => //.
+- by move=> t v _ /(solves_given E).
 - by move=> r t v _ /equivalent_region.
-- by move=> v v' _ _ /(same_multiples E).
-move=> t v /(same_solutions E) sol; exists v; split=> //.
-  by move=> v' _ /(same_multiples E).
+- by move=> t v v' sol sol' /(same_multiples E sol sol').
+move=> t v /(solves_lifted E) sol; exists (lift t v); split=> //.
+  by move=> v' sol' /(same_multiples E sol' sol)/(same_lifted E).
 case=> [[f f_in [reg at_t]]|[r r_in reg]]; [left | right].
-  by exists f => //; split=> //; apply/equivalent_region.
-by exists r => //; apply/equivalent_region.
+  by exists f => //; split=> //; apply/lifted_region.
+by exists r => //; apply/lifted_region.
 Qed.
 
 Lemma equivalent_family f : family_exists P' f -> family_exists P f.
 Proof.
 case=> is_pl each; split=> // t /each[[v [sol reg]] alone]; split.
-  by exists v; split; [apply/(same_solutions E) | apply/equivalent_region].
-move=> al v1 v2 /(same_solutions E) sol1 /equivalent_region reg1.
-move=> /(same_solutions E) sol2 /equivalent_region reg2.
-by apply/(same_multiples E); apply: (alone al).
+  by exists v; split; [apply: (solves_given E) | apply/equivalent_region].
+move=> al v1 v2 /(solves_lifted E) sol1 /lifted_region reg1.
+move=> /(solves_lifted E) sol2 /lifted_region reg2.
+apply/(lifted_same E t)/(same_lifted E t)/(same_multiples E sol1 sol2).
+exact: (alone al).
 Qed.
 
 Lemma equivalent_meaning s : meaning_in P' s -> meaning_in P s.
@@ -282,15 +302,15 @@ have reactionE t x i : reaction (scaled_pencil c Q) t x i =
     toR (entry_scale c) * product (given_order Q) (given_a Q) (given_b Q) t x i.
   exact: scaled_product.
 split=> //=.
-- move=> t x; split=> [[t0 [nonzero rows_f rows_s]]|[t0 nonzero rows_f rows_s]].
-    split=> // i i_in; first by rewrite reactionE rows_f // mulr0.
-    by rewrite reactionE; apply/(complementary_scaled _ _ m0R)/rows_s.
-  do 2!split=> //; move=> i i_in.
+- move=> t x [t0 [nonzero rows_f rows_s]]; split=> // i i_in.
+    by rewrite reactionE rows_f // mulr0.
+  by rewrite reactionE; apply/(complementary_scaled _ _ m0R)/rows_s.
+- move=> t x [t0 nonzero rows_f rows_s]; do 2!split=> //; move=> i i_in.
     have /eqP := rows_f i i_in; rewrite reactionE mulf_eq0 gt_eqF //= => /eqP.
     by [].
   by have := rows_s i i_in; rewrite reactionE => /(complementary_scaled _ _ m0R).
 - by move=> v j _; exists 1; rewrite ?ltr01 // mul1r.
-- by move=> t v j _; exists (toR (entry_scale c)).
+- by move=> t v j _ _; exists (toR (entry_scale c)).
 by move=> _ <-; exists c; rewrite /= ex.
 Qed.
 
@@ -583,10 +603,11 @@ Lemma zero_equivalent : zero_wellformed z u -> ~~ nilp (with_zero B) ->
   equivalent (system_semantics R B u) (integral_semantics (ZeroProblem z u)).
 Proof.
 move=> wf some; split=> //=; rewrite ?numbers_scaled //.
-- exact: solves_scaled.
+- by move=> t v /solves_scaled.
+- by move=> t v /solves_scaled.
 - move=> v j; rewrite size_iota => lt_j; rewrite nth_iota // -size_filter.
   exact: zero_rate_same.
-- by move=> t v j; rewrite size_iota => lt_j; apply: zero_row_same.
+- by move=> t v j _; rewrite size_iota => lt_j; apply: zero_row_same.
 - rewrite /same_property flat_scaled; case: (u) => // *; case: (flat_body B) => // *.
   exact: conditions_scaled.
 by move=> Q <-; exists c, (ZeroProblem z u); rewrite ex (negbTE some).
@@ -606,11 +627,13 @@ Lemma system_equivalent : system_wellformed s u ->
   equivalent (system_semantics R B u) (integral_semantics (SystemProblem s u)).
 Proof.
 move=> wf; split=> //=; rewrite ?system_numbers /complementarity ?no_zero ?muln0 ?addn0 //.
-- move=> t v; rewrite solves_scaled /satisfies_9z without_zero_scaled /= satisfies_9E.
-  by split=> -[t0 /no_zero_particles sat].
+- move=> t v /solves_scaled; rewrite /satisfies_9z without_zero_scaled => -[t0].
+  by move=> /no_zero_particles sat; apply/satisfies_9E.
+- move=> t v /satisfies_9E[t0 sat]; apply/solves_scaled; rewrite /satisfies_9z without_zero_scaled.
+  by split=> //; apply/no_zero_particles.
 - move=> v j; rewrite size_iota => lt_j; rewrite nth_iota // -size_filter.
   exact: slip_rate_same.
-- by move=> t v j; rewrite size_iota => lt_j; apply: slip_row_same.
+- by move=> t v j _; rewrite size_iota => lt_j; apply: slip_row_same.
 - rewrite /same_property flat_scaled; case: (u) => // _ _; case: (flat_body B) => // lambda2 mu v.
   rewrite conditions_scaled without_zero_scaled; exact: no_zero_particles.
 by move=> Q <-; exists c, (SystemProblem s u); rewrite ex.
@@ -660,8 +683,7 @@ Definition integral_wellformed q :=
 Theorem scaled_equivalent (R : rcfType) c p q : scaled c p = Some q -> integral_wellformed q ->
   equivalent (semantics_of R p) (integral_semantics R q).
 Proof.
-case: p => [Q|Q|B u|//|rows|//] /=; case: ifP => // ex [<-].
-- by move=> _; apply: pencil_equivalent.
+case: p => [Q|//|//|B u|//|rows|//] /=; case: ifP => // ex [<-].
 - by move=> _; apply: pencil_equivalent.
 - case: ifP => [/nilP none|some] wf; first exact: system_equivalent.
   by apply: zero_equivalent; rewrite ?some.
@@ -673,5 +695,5 @@ Theorem scaled_meaning (R : rcfType) c p q s : scaled c p = Some q -> integral_w
 Proof.
 move=> is_q wf holds; have : meaning_in (semantics_of R p) s.
   by apply: equivalent_meaning holds; apply: scaled_equivalent is_q wf.
-by case: p is_q => [Q|Q|B u|B radii|rows|B] //; case: s {holds}.
+by case: p is_q => [Q|//|//|B u|B radii|rows|B] //; case: s {holds}.
 Qed.

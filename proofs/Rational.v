@@ -1,8 +1,9 @@
 (* Problems as they are written, with rational numbers, and the integers that the kernel computes
    with.
 
-   A pencil is multiplied by one positive integer; the stiffness and the mass of a system by one,
-   its tangents and normals by another.  Any such integers serve by which all entries become
+   A pencil is multiplied by one positive integer, and so is the *linear form* of a quadratic
+   problem, a pencil in which t^2 does not occur; the stiffness and the mass of a system by one, its
+   tangents and normals by another.  Any such integers serve by which all entries become
    integers ([scaled_entry], [exact]).  Free are the degrees of freedom of no particle that is in
    contact.  The tangent and the normal of a particle are the rows of its frame; the normal points
    into the obstacle, and its length is the friction factor.  A particle that slips has the
@@ -39,11 +40,45 @@ Record rational_pencil := RationalPencil {
   given_b : seq rational_row;
   given_free : seq nat }.
 
+Definition opposite_row (row : rational_row) : rational_row :=
+  [seq (e.1, (- e.2.1, e.2.2))%Z | e <- row].
+
 (* (A, -B) *)
 Definition reflected Q :=
-  let opposite (e : nat * rational) := (e.1, (- e.2.1, e.2.2))%Z in
-  RationalPencil (given_order Q) (given_a Q) [seq [seq opposite e | e <- row] | row <- given_b Q]
+  RationalPencil (given_order Q) (given_a Q) [seq opposite_row row | row <- given_b Q]
     (given_free Q).
+
+(* A + t B + t^2 C, where no variable is free. *)
+Record rational_quadratic := RationalQuadratic {
+  quadratic_order : nat;
+  quadratic_a : seq rational_row;
+  quadratic_b : seq rational_row;
+  quadratic_c : seq rational_row }.
+
+(* (A, -B, C) *)
+Definition reflected_quadratic q :=
+  RationalQuadratic (quadratic_order q) (quadratic_a q)
+    [seq opposite_row row | row <- quadratic_b q] (quadratic_c q).
+
+(* For t >= 0 a quadratic problem of order n is a pencil of order 2 n, of x and z = x / (1 + t):
+
+       [ B - C   A - B + C ]       [ C   0 ]
+       [  -I         I     ]  + t  [ 0   I ].
+
+   Columns of the given matrices that are no variables count for nothing. *)
+Definition linearized q :=
+  let n := quadratic_order q in
+  let numbers := iota 0 n in
+  let row (m : seq rational_row) i := [seq e <- nth [::] m i | e.1 < n] in
+  let behind (r : rational_row) : rational_row := [seq (n + e.1, e.2) | e <- r] in
+  let a := row (quadratic_a q) in
+  let b := row (quadratic_b q) in
+  let c := row (quadratic_c q) in
+  RationalPencil (n + n)
+    ([seq b i ++ opposite_row (c i) ++ behind (a i ++ opposite_row (b i) ++ c i) | i <- numbers] ++
+     [seq [:: (i, (- 1, 1)%Z); (n + i, (1, 1)%Z)] | i <- numbers])
+    ([seq c i | i <- numbers] ++ [seq [:: (n + i, (1, 1)%Z)] | i <- numbers])
+    (iota n n).
 
 (* The state before the event; a particle that slips has the sign S of its tangential reaction, and
    the geometric stiffness g. *)
@@ -97,6 +132,8 @@ Inductive problem :=
   | GivenPencil of rational_pencil
   (* With values of either sign. *)
   | GivenEigenvalue of rational_pencil
+  (* The same with t^2. *)
+  | GivenQuadratic of rational_quadratic
   | GivenSystem of rational_system & unknown
   | GivenMembers of rational_system & rational_radii
   | GivenPlain of seq rational_mcp_row
@@ -207,10 +244,10 @@ Definition exact_mcp_row r :=
   exact (entry_scale c) (given_q r) && all (fun e => exact (entry_scale c) e.2) (given_m r).
 
 (* The integral problem, if these factors make it one.  Equilibrium.v makes integers of a body under
-   loads. *)
+   loads; for an eigenvalue problem stands one of its pencils ([signed_pencils]). *)
 Definition scaled p : option integral :=
   match p with
-  | GivenPencil Q | GivenEigenvalue Q =>
+  | GivenPencil Q =>
       if exact_pencil Q then Some (PencilProblem (scaled_pencil Q)) else None
   | GivenSystem B u =>
       if exact_system B
@@ -220,10 +257,19 @@ Definition scaled p : option integral :=
   | GivenPlain rows =>
       if (0 <? entry_scale c) && all exact_mcp_row rows
       then Some (PlainProblem [seq scaled_mcp_row r | r <- rows]) else None
-  | GivenMembers _ _ | GivenLoads _ => None
+  | GivenEigenvalue _ | GivenQuadratic _ | GivenMembers _ _ | GivenLoads _ => None
   end.
 
 End Scaling.
+
+(* Of an eigenvalue problem: the pencils whose solutions are its solutions with t >= 0, and with
+   t <= 0 at -t. *)
+Definition signed_pencils p : option (rational_pencil * rational_pencil) :=
+  match p with
+  | GivenEigenvalue Q => Some (Q, reflected Q)
+  | GivenQuadratic q => Some (linearized q, linearized (reflected_quadratic q))
+  | _ => None
+  end.
 
 (* The pencil of an integral problem, by (12)-(14) for a system. *)
 Definition pencil_of_integral q : pencil :=
@@ -239,6 +285,7 @@ Definition pencil_of_integral q : pencil :=
 Definition complementarity p : seq nat :=
   match p with
   | GivenPencil Q | GivenEigenvalue Q => [seq i <- iota 0 (given_order Q) | i \notin given_free Q]
+  | GivenQuadratic q => iota 0 (quadratic_order q)
   | GivenSystem B _ =>
       iota (count (fun d => d \notin held B) (iota 0 (degrees B)))
         (size (slipping B) + 3 * size (with_zero B))

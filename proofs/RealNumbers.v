@@ -16,7 +16,7 @@ From mathcomp.real_closed Require Import realalg.
 From Mceip Require Import Claim EnclosedClaim System Lifted ZeroReaction ZeroEnclosed PlainMcp.
 From Mceip Require Import Families Varying Covers ZeroComplete Critical CriticalAnchors.
 From Mceip Require Import PresenceAnchors Radii.
-From Mceip Require Import Points Reflection Equilibrium Unique Stable Verdict.
+From Mceip Require Import Points Reflection Quadratic Equilibrium Unique Stable Verdict.
 
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -188,6 +188,8 @@ Definition system_point_hold_R := @system_point_hold reals.
 Definition infinity_number_R := @infinity_number reals.
 Definition infinity_hold_R := @infinity_hold reals.
 Definition both_signs_R := @both_signs reals.
+Definition linearized_equivalent_R := @linearized_equivalent reals.
+Definition reflected_quadratic_equivalent_R := @reflected_quadratic_equivalent reals.
 Definition plain_mcp_sound_R := @plain_mcp_sound reals.
 Definition equilibrium_sound_R := @equilibrium_sound reals.
 Definition rates_sound_R := @rates_sound reals.
@@ -228,6 +230,9 @@ Definition system_point_hold_realalg := @system_point_hold realalg_rcfType.
 Definition infinity_number_realalg := @infinity_number realalg_rcfType.
 Definition infinity_hold_realalg := @infinity_hold realalg_rcfType.
 Definition both_signs_realalg := @both_signs realalg_rcfType.
+Definition linearized_equivalent_realalg := @linearized_equivalent realalg_rcfType.
+Definition reflected_quadratic_equivalent_realalg :=
+  @reflected_quadratic_equivalent realalg_rcfType.
 Definition plain_mcp_sound_realalg := @plain_mcp_sound realalg_rcfType.
 Definition equilibrium_sound_realalg := @equilibrium_sound realalg_rcfType.
 Definition rates_sound_realalg := @rates_sound realalg_rcfType.

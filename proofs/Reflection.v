@@ -6,9 +6,10 @@
    Theorem [reflected_solution]: (t, x) solves (A, B) if and only if (-t, x) solves (A, -B).
    Theorem [reflected_equivalent]: what is said of (A, -B) is said of the solutions of (A, B) with
    t <= 0, -t in place of t.
-   Theorem [both_signs]: if all solutions of (A, B) with a value in [0, b] and all those of (A, -B)
-   with a value in [0, a] are known, then all solutions of (A, B) with -a <= t <= b are.  Solutions
-   with t = 0 are in both sets, so those of (A, -B) whose value is known to be 0 are left out.
+   Theorem [both_signs], of pencils and of quadratic problems (Quadratic.v): if all solutions with a
+   value in [0, b] and all those of the reflected problem with a value in [0, a] are known, then all
+   solutions with -a <= t <= b are.  Solutions with t = 0 are in both sets, so those of the
+   reflected problem whose value is known to be 0 are left out.
 
    Page: spec/certificates.md, 5.2 (Values below 0). *)
 
@@ -43,26 +44,48 @@ exists kept; split=> // m'; first by move/sub; right.
 by case=> [<-|/sup//]; right; exists y.
 Qed.
 
+(* The entry of a row at a column; it is [given_entry]. *)
+Notation row_entry row j := (\sum_(e <- row) (if e.1 == j then fraction _ e.2 else 0)).
+
 Section Reflection.
 
-Variables (R : rcfType) (Q : rational_pencil).
+Variable R : rcfType.
 Implicit Types (t s : R) (x : nat -> R).
 
-Notation semantics_above := (pencil_semantics R Q).
-Notation semantics_below := (negative_semantics R Q).
-
-Lemma reflected_entry i j :
-  given_entry R (given_b (reflected Q)) i j = - given_entry R (given_b Q) i j.
+Lemma opposite_row_entry row j : row_entry (opposite_row row) j = - row_entry row j :> R.
 Proof.
-rewrite /given_entry -sumrN /=; elim: (given_b Q) i => [|row rows IH] [|i] /=;
-  rewrite ?nth_nil ?big_nil // big_map; apply: eq_bigr => e _ /=.
+rewrite -sumrN big_map; apply: eq_bigr => e _ /=.
 by case: ifP; rewrite ?oppr0 // /fraction /= toRN mulNr.
 Qed.
+
+Lemma opposite_entry rows i j :
+  given_entry R [seq opposite_row row | row <- rows] i j = - given_entry R rows i j.
+Proof.
+rewrite /given_entry -opposite_row_entry; congr (\sum_(e <- _) _).
+by elim: rows i => [|row rows IH] [|i] /=.
+Qed.
+
+(* Vectors that solve the same. *)
+Lemma same_rows_equivalent n numbers solved solved' y y' Q :
+  (forall t x, solved t x <-> solved' t x) -> (forall t x i, y t x i = y' t x i) ->
+  equivalent (from_zero_semantics n numbers solved y Q)
+    (from_zero_semantics n numbers solved' y' Q).
+Proof.
+move=> same_solved same_y; split=> //=.
+- by move=> t x [t0 /same_solved].
+- by move=> t x [t0 /same_solved].
+- by move=> x j _; exists 1; rewrite ?ltr01 // mul1r.
+by move=> t x j _ _; exists 1; rewrite ?ltr01 // mul1r same_y.
+Qed.
+
+Section Pencil.
+
+Variable Q : rational_pencil.
 
 Lemma reflected_product n s x i :
   product n (given_a (reflected Q)) (given_b (reflected Q)) s x i =
   product n (given_a Q) (given_b Q) (- s) x i.
-Proof. by apply: eq_bigr => j _; rewrite reflected_entry mulrN mulNr. Qed.
+Proof. by apply: eq_bigr => j _; rewrite opposite_entry mulrN mulNr. Qed.
 
 Theorem reflected_solution t x :
   eigenvalue_solves Q t x <-> eigenvalue_solves (reflected Q) (- t) x.
@@ -74,13 +97,14 @@ split=> -[nonzero free rows]; split=> // i i_in.
 by rewrite -[t]opprK -reflected_product; apply: rows.
 Qed.
 
-Theorem reflected_equivalent : equivalent semantics_below (pencil_semantics R (reflected Q)).
+Theorem reflected_equivalent :
+  equivalent (negative_semantics R Q) (pencil_semantics R (reflected Q)).
 Proof.
-split=> //=; first 1 last.
-- by move=> v j _; exists 1; rewrite ?ltr01 // mul1r.
-- by move=> s v j _; exists 1; rewrite ?ltr01 // mul1r reflected_product.
-by move=> s x; rewrite reflected_solution opprK.
+apply: same_rows_equivalent => [s x|s x i]; first by rewrite reflected_solution opprK.
+by rewrite reflected_product.
 Qed.
+
+End Pencil.
 
 Lemma zero_yieldP y s : zero_yield y -> 0 <= s -> between s (yield_from y) (yield_to y) -> s = 0.
 Proof.
@@ -108,9 +132,17 @@ case/andP=> y0 pos vals m; inversion vals as [|? k ? l' [[from_y _] _] rest]; su
 exact: IH pos rest _.
 Qed.
 
+Section BothSigns.
+
+Variables (n : nat) (numbers : seq nat) (solved : R -> (nat -> R) -> Prop).
+Variables (rows : R -> (nat -> R) -> nat -> R) (Q Q' : rational_pencil).
+
+Notation semantics_above := (from_zero_semantics n numbers solved rows Q).
+Notation semantics_below := (below_zero_semantics n numbers solved rows Q').
+
 Theorem both_signs a b below above : all_solutions_are semantics_below zero a below ->
   all_solutions_are semantics_above zero b above ->
-  all_of_both_signs_are R Q a b (nonzero_values below) above.
+  all_of_both_signs_are semantics_below semantics_above solved a b (nonzero_values below) above.
 Proof.
 move=> [l different every] [l' different' every'].
 have [_ sols vals pairs] := different; have [_ sols' _ _] := different'.
@@ -138,5 +170,7 @@ have [||[m m_in [eq same]]|[f f_in [reg at_t]]|open] := every (- t) x.
   by case: s_neq0; apply: zero_familyP f0 s_ge0 at_t.
 exact: Or33.
 Qed.
+
+End BothSigns.
 
 End Reflection.

@@ -26,9 +26,10 @@
    equilibrium grows.  g belongs to the equilibrium at one friction, so statements about an interval
    of friction, about all loads and about stability are of flat obstacles ([flat_body]).
 
-   An eigenvalue problem is a pencil of which the value t may have either sign.  Statements speak of
-   its solutions with t <= 0 as of those of the pencil (A, -B), whose value is -t: in windows,
-   intervals, regions and places stands -t for t ([BelowZero], [negative_semantics]).
+   An eigenvalue problem is a pencil of which the value t may have either sign, or a quadratic
+   problem, about A + t B + t^2 C.  Statements speak of its solutions with t <= 0 as of those of
+   (A, -B) or (A, -B, C), whose value is -t: in windows, intervals, regions and places stands -t
+   for t ([BelowZero], [below_zero_semantics]).
 
    A body with radii stands for its *members*; a statement about it is about each of them
    ([given_member], [member_moves]).
@@ -138,6 +139,25 @@ Definition given_entry (rows : seq rational_row) i j : R :=
 Definition product n (a b : seq rational_row) t v i : R :=
   \sum_(j <- iota 0 n) (given_entry a i j + t * given_entry b i j) * v j.
 
+(* What vectors x of n variables, of which these numbers are complementary, solve with values t of
+   either sign. *)
+Section Values.
+
+Variables (n : nat) (numbers : seq nat) (solved : R -> (nat -> R) -> Prop).
+Variable y : R -> (nat -> R) -> nat -> R.
+
+(* The solutions with t >= 0; this pencil has those at infinity. *)
+Definition from_zero_semantics Q := Semantics numbers (fun t x => 0 <= t /\ solved t x)
+  (multiples n) (fun x j => x (nth 0%N numbers j)) (fun t x j => y t x (nth 0%N numbers j)) None
+  (fun Q' => exists c, scaled c (GivenPencil Q) = Some (PencilProblem Q')) None.
+
+End Values.
+
+(* The solutions with t <= 0, for which s = -t stands. *)
+Definition below_zero_semantics n numbers (solved : R -> (nat -> R) -> Prop)
+    (y : R -> (nat -> R) -> nat -> R) Q :=
+  from_zero_semantics n numbers (fun s => solved (- s)) (fun s => y (- s)) Q.
+
 Section Pencil.
 
 Variable Q : rational_pencil.
@@ -151,18 +171,38 @@ Definition eigenvalue_solves t x :=
       forall i, i \in given_free Q -> y t x i = 0 &
       forall i, i \in numbers -> [/\ 0 <= x i, 0 <= y t x i & x i * y t x i = 0]].
 
-Definition pencil_semantics := Semantics numbers (fun t x => 0 <= t /\ eigenvalue_solves t x)
-  (multiples (given_order Q))
-  (fun x j => x (nth 0%N numbers j)) (fun t x j => y t x (nth 0%N numbers j)) None
-  (fun Q' => exists c, scaled c (GivenPencil Q) = Some (PencilProblem Q')) None.
+Definition pencil_semantics :=
+  from_zero_semantics (given_order Q) numbers eigenvalue_solves (fun t x i => y t x i) Q.
 
-(* The solutions with t <= 0, for which s = -t stands. *)
-Definition negative_semantics := Semantics numbers
-  (fun s x => 0 <= s /\ eigenvalue_solves (- s) x) (multiples (given_order Q))
-  (fun x j => x (nth 0%N numbers j)) (fun s x j => y (- s) x (nth 0%N numbers j)) None
-  (fun Q' => exists c, scaled c (GivenPencil (reflected Q)) = Some (PencilProblem Q')) None.
+Definition negative_semantics := below_zero_semantics (given_order Q) numbers eigenvalue_solves
+  (fun t x i => y t x i) (reflected Q).
 
 End Pencil.
+
+Section Quadratic.
+
+Variable q : rational_quadratic.
+
+Notation n := (quadratic_order q).
+
+(* Row i of (A + t B + t^2 C) x. *)
+Definition quadratic_product t v i : R := \sum_(j <- iota 0 n)
+  (given_entry (quadratic_a q) i j + t * given_entry (quadratic_b q) i j +
+   t ^+ 2 * given_entry (quadratic_c q) i j) * v j.
+
+(* The value t may have either sign. *)
+Definition quadratic_solves t x :=
+  (exists2 i, i \in iota 0 n & x i != 0) /\
+  forall i, i \in iota 0 n ->
+    [/\ 0 <= x i, 0 <= quadratic_product t x i & x i * quadratic_product t x i = 0].
+
+Definition quadratic_semantics :=
+  from_zero_semantics n (iota 0 n) quadratic_solves quadratic_product (linearized q).
+
+Definition negative_quadratic_semantics := below_zero_semantics n (iota 0 n) quadratic_solves
+  quadratic_product (linearized (reflected_quadratic q)).
+
+End Quadratic.
 
 Notation nobody := (GivenParticle 0 0 NotInContact ((0, 1), (0, 1)) ((0, 1), (0, 1)) 0 (0, 1))%Z.
 
@@ -427,6 +467,7 @@ End Loads.
 Definition semantics_of p :=
   match p with
   | GivenPencil Q | GivenEigenvalue Q => pencil_semantics Q
+  | GivenQuadratic q => quadratic_semantics q
   | GivenSystem B u => system_semantics B u
   | GivenPlain rows => Semantics [::] (fun _ _ => False) (fun _ _ => False) (fun _ _ => 0)
       (fun _ _ _ => 0) None (fun _ => False) (Some (solves_given rows))
@@ -483,15 +524,25 @@ Definition family_exists (f : family) :=
 
 End Statements.
 
+(* Solutions with t <= 0, at -t, and with t >= 0; both, with t of either sign. *)
+Section BothSigns.
+
+Variables (B A : semantics) (solved : R -> (nat -> R) -> Prop).
+
 (* All solutions of an eigenvalue problem with -a <= t <= b.  If the sets are told apart, none of
    them is listed in both. *)
-Definition all_of_both_signs_are Q a b (below above : solution_set) := exists l l',
-  [/\ different_solutions (negative_semantics Q) zero a below l,
-      different_solutions (pencil_semantics Q) zero b above l',
+Definition all_of_both_signs_are a b (below above : solution_set) := exists l l',
+  [/\ different_solutions B zero a below l, different_solutions A zero b above l',
       told_apart below above -> forall m m', List.In m l -> List.In m' l' -> - m.1 <> m'.1 &
-      forall t x, eigenvalue_solves Q t x -> between t (opposite a) b ->
-        is_among (negative_semantics Q) below l (- t) x \/
-        is_among (pencil_semantics Q) above l' t x].
+      forall t x, solved t x -> between t (opposite a) b ->
+        is_among B below l (- t) x \/ is_among A above l' t x].
+
+Definition both_signs_mean a b (below above : solution_set) :=
+  [/\ all_of_both_signs_are a b below above,
+      forall f, List.In f (families_of_set below) -> family_exists B f &
+      forall f, List.In f (families_of_set above) -> family_exists A f].
+
+End BothSigns.
 
 (* Solutions at infinity of a pencil (Points.v); in regions and families their value is 0. *)
 Section Infinity.
@@ -551,9 +602,12 @@ Definition meaning p s :=
   | GivenLoads B, InEquilibrium mu amounts states => has_equilibrium B mu amounts states
   | GivenEigenvalue Q, BelowZero s => meaning_in (negative_semantics Q) s
   | GivenEigenvalue Q, AllOfBothSigns a b below above =>
-      [/\ all_of_both_signs_are Q a b below above,
-          forall f, List.In f (families_of_set below) -> family_exists (negative_semantics Q) f &
-          forall f, List.In f (families_of_set above) -> family_exists (pencil_semantics Q) f]
+      both_signs_mean (negative_semantics Q) (pencil_semantics Q) (eigenvalue_solves Q) a b
+        below above
+  | GivenQuadratic q, BelowZero s => meaning_in (negative_quadratic_semantics q) s
+  | GivenQuadratic q, AllOfBothSigns a b below above =>
+      both_signs_mean (negative_quadratic_semantics q) (quadratic_semantics q) (quadratic_solves q)
+        a b below above
   | _, _ => meaning_in (semantics_of p) s
   end.
 

@@ -904,10 +904,10 @@ Lemma motions_listed lo hi ys (other other' : R -> (nat -> R) -> Prop) :
   all_listed (solution Q) (proportional Q) (lies_in Q) lo hi ys other ->
   all_listed (satisfies_9 s u) same_motion motion_in lo hi ys other'.
 Proof.
-move=> other_v; apply: (listed_transfer (good := fun=> True) (f := motion s)) => // {ys}.
+move=> other_v; apply: (listed_transfer (good := fun _ _ => True) (f := motion s)) => // {ys}.
 - by move=> t x _ /(system_pencil wf).
 - by move=> r t x _; apply: lies_in_motion.
-- by move=> x x' _ _; apply: motion_injective.
+- by move=> _ x x' _ _; apply: motion_injective.
 move=> t v sat; exists (variables_of s v); split; [exact: solution_of_motion | | exact: other_v].
 move=> x' _ /motion_proportional[f f0 scaled]; exists f => // d Hd.
 by rewrite -scaled (system_onto wf sat).

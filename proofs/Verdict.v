@@ -14,8 +14,8 @@
 From Mceip Require Import Base Lists Integers Sums Tree Enclosed Definite Cover Number
   Condensation Pencil Whole Claim EnclosedClaim Complete System Signs Support Families Lifted
   ZeroReaction PlainMcp Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical
-  CriticalAnchors Presence PresenceAnchors Points Rational Statement Integral Reflection Members
-  Radii Equilibrium Unique Stability Stable.
+  CriticalAnchors Presence PresenceAnchors Points Rational Statement Integral Reflection Quadratic
+  Members Radii Equilibrium Unique Stability Stable.
 
 (* A claim about the pencil; a motion with its forces; a box around a motion with particles of zero
    reaction. *)
@@ -54,7 +54,7 @@ Inductive evidence :=
   (* Friction, amounts and states, and what shows that there is an equilibrium in them. *)
   | Equilibrium of rational & seq rational & seq stated & equilibrium_evidence
   (* Of an eigenvalue problem: about the reflected pencil; a cover of this one and a cover of the
-     pencil itself. *)
+     pencil itself ([signed_pencils]). *)
   | Reflected of evidence
   | OfBothSigns of evidence & evidence.
 
@@ -223,11 +223,18 @@ Definition joined (below above : answered) : answered :=
   | _, _ => EvidenceRefused
   end.
 
+(* Of an eigenvalue problem, by its pencils for t >= 0 and for t <= 0. *)
+Definition signed_answer Q Q' c (e : evidence) : answered :=
+  match e with
+  | Reflected e => below_zero (scaled_answer (GivenPencil Q') c e)
+  | OfBothSigns e e' =>
+      joined (scaled_answer (GivenPencil Q') c e) (scaled_answer (GivenPencil Q) c e')
+  | _ => scaled_answer (GivenPencil Q) c e
+  end.
+
 Definition answer p c (e : evidence) : answered :=
+  if signed_pencils p is Some (Q, Q') then signed_answer Q Q' c e else
   match p, e with
-  | GivenEigenvalue Q, Reflected e => below_zero (scaled_answer (GivenPencil (reflected Q)) c e)
-  | GivenEigenvalue Q, OfBothSigns e e' =>
-      joined (scaled_answer (GivenPencil (reflected Q)) c e) (scaled_answer (GivenPencil Q) c e')
   | GivenLoads B, Equilibrium mu amounts states w =>
       proved_if (check_equilibrium B mu amounts states (entry_scale c) w)
         (InEquilibrium mu amounts states)
@@ -481,32 +488,63 @@ rewrite /scaled_answer; case is_q: (scaled c p) => [q|] //; case: ifP => // wf /
 exact: scaled_meaning is_q wf.
 Qed.
 
-(* Of an eigenvalue problem. *)
-Lemma below_sound Q c e s : scaled_answer (GivenPencil (reflected Q)) c e = Proved s ->
-  meaning_in (negative_semantics R Q) s.
-Proof. by move=> /scaled_sound; apply: equivalent_meaning; apply: reflected_equivalent. Qed.
+(* Of an eigenvalue problem, with both of its pencils. *)
+Section Signed.
 
-Lemma joined_sound Q c e e' s :
-  joined (scaled_answer (GivenPencil (reflected Q)) c e) (scaled_answer (GivenPencil Q) c e') =
-    Proved s ->
-  meaning R (GivenEigenvalue Q) s.
+Variables (n : nat) (numbers : seq nat) (solved : R -> (nat -> R) -> Prop).
+Variables (rows : R -> (nat -> R) -> nat -> R) (above below Q Q' : rational_pencil).
+
+Notation semantics_above := (from_zero_semantics n numbers solved rows above).
+Notation semantics_below := (below_zero_semantics n numbers solved rows below).
+
+Hypothesis of_above :
+  forall s, meaning_in (pencil_semantics R Q) s -> meaning_in semantics_above s.
+Hypothesis of_below :
+  forall s, meaning_in (pencil_semantics R Q') s -> meaning_in semantics_below s.
+
+Definition signed_meaning s :=
+  match s with
+  | BelowZero s => meaning_in semantics_below s
+  | AllOfBothSigns a b c c' => both_signs_mean semantics_below semantics_above solved a b c c'
+  | s => meaning_in semantics_above s
+  end.
+
+Lemma joined_sound c e e' s :
+  joined (scaled_answer (GivenPencil Q') c e) (scaled_answer (GivenPencil Q) c e') = Proved s ->
+  signed_meaning s.
 Proof.
-case: scaled_answer (@below_sound Q c e) => [s1|?||];
+case: scaled_answer (@scaled_sound (GivenPencil Q') c e) => [s1|?||];
   case: scaled_answer (@scaled_sound (GivenPencil Q) c e') => [s2|?||] //; try by case: s1.
-move=> /(_ _ erefl) + /(_ _ erefl); case: s1 => //; case: s2 => // lo b above lo' a below.
+move=> /(_ _ erefl)/of_above + /(_ _ erefl)/of_below.
+case: s1 => //; case: s2 => // lo b all_above lo' a all_below.
 move=> [all' each'] [all each] /=; case: ifP => // /andP[/same_point_eq eq /same_point_eq eq'] [<-].
 rewrite eq in all; rewrite eq' in all'; split=> //; first exact: both_signs.
 by move=> f /in_filter[/each].
 Qed.
 
+Lemma signed_sound c e s : signed_answer Q Q' c e = Proved s -> signed_meaning s.
+Proof.
+have plain : scaled_answer (GivenPencil Q) c e = Proved s -> signed_meaning s.
+  by move=> /scaled_sound/of_above; case: s.
+case: e plain => [???|???|???|???|????|??????|??????|?????|??????|?|????|e|e e'] // _;
+  last exact: joined_sound.
+rewrite /= /below_zero; case eq: (scaled_answer _ _ _) => [s'|||] // [<-].
+exact: of_below (scaled_sound eq).
+Qed.
+
+End Signed.
+
 Theorem answer_sound p c e s : answer p c e = Proved s -> meaning R p s.
 Proof.
-case: p => [Q|Q|B u|B radii|rows|B]; try exact: scaled_sound.
-- case: e => [???|???|???|???|????|??????|??????|?????|??????|?|????|e|e e'];
-    try exact: scaled_sound.
-    rewrite /= /below_zero; case eq: (scaled_answer _ _ _) => [s'|||] // [<-].
-    exact: below_sound eq.
-  exact: joined_sound.
+case: p => [Q|Q|q|B u|B radii|rows|B]; rewrite /answer /signed_pencils; try exact: scaled_sound.
+- have of_below s' := equivalent_meaning (reflected_equivalent R Q) (s := s').
+  by move=> /(signed_sound (fun=> id) of_below); case: s.
+- have of_below s' : meaning_in (pencil_semantics R (linearized (reflected_quadratic q))) s' ->
+      meaning_in (negative_quadratic_semantics R q) s'.
+    move=> /(equivalent_meaning (linearized_equivalent R (reflected_quadratic q))).
+    exact: (equivalent_meaning (reflected_quadratic_equivalent R q)).
+  have of_above s' := equivalent_meaning (linearized_equivalent R q) (s := s').
+  by move=> /(signed_sound of_above of_below); case: s.
 - case: e => [???|???|???|???|????|??????|??????|lo hi w low high|lo hi w d low high|?|????|?|??];
     try exact: scaled_sound.
     by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).

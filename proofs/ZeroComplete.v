@@ -192,11 +192,11 @@ Theorem zero_cover_number ys : zero_distinct z u lo hi yields rs ls = Some ys ->
 Proof.
 rewrite /zero_distinct; case: ifP => // _; case dist: (distinct_yields _ _ _ _) => [ys'|] //.
 case: ifP => // apart [eq_ys]; move: dist apart; rewrite {ys'}eq_ys => dist apart.
-apply: (listed_transfer (good := split z) (f := zero_motion z) _ _ _ _ _
+apply: (listed_transfer (good := fun=> split z) (f := zero_motion z) _ _ _ _ _
   (cover_number supports cover dist)).
 - by move=> t x splits sol; apply: zero_pencil_motion.
 - by move=> r t x; apply: motion_lies_in.
-- by move=> x x'; apply: proportional_of_motions.
+- by move=> _ x x'; apply: proportional_of_motions.
 - move=> t v sat; exists (zero_variables_of z v); split; first exact: (zero_pencil_solution wf sat).
     move=> x' _ /same_motion_scaled[f f0 scaled]; exists f => // d d_in.
     by rewrite -scaled // (zero_motion_of_variables wf sat).

@@ -5200,12 +5200,47 @@ type rational_row = (int * rational0) list
 type rational_pencil = { given_order : int; given_a : rational_row list;
                          given_b : rational_row list; given_free : int list }
 
+(** val opposite_row : rational_row -> rational_row **)
+
+let opposite_row row =
+  map0 (fun e -> ((fst e), ((Big_int_Z.minus_big_int (fst (snd e))), (snd (snd e))))) row
+
 (** val reflected : rational_pencil -> rational_pencil **)
 
 let reflected q =
-  let opposite = fun e -> ((fst e), ((Big_int_Z.minus_big_int (fst (snd e))), (snd (snd e)))) in
-  { given_order = q.given_order; given_a = q.given_a; given_b =
-  (map0 (fun row -> map0 opposite row) q.given_b); given_free = q.given_free }
+  { given_order = q.given_order; given_a = q.given_a; given_b = (map0 opposite_row q.given_b);
+    given_free = q.given_free }
+
+type rational_quadratic = { quadratic_order : int; quadratic_a : rational_row list;
+                            quadratic_b : rational_row list; quadratic_c : rational_row list }
+
+(** val reflected_quadratic : rational_quadratic -> rational_quadratic **)
+
+let reflected_quadratic q =
+  { quadratic_order = q.quadratic_order; quadratic_a = q.quadratic_a; quadratic_b =
+    (map0 opposite_row q.quadratic_b); quadratic_c = q.quadratic_c }
+
+(** val linearized : rational_quadratic -> rational_pencil **)
+
+let linearized q =
+  let n = q.quadratic_order in
+  let numbers = iota 0 n in
+  let row = fun m i -> filter (fun e -> leq (Natural.succ (fst e)) n) (nth [] m i) in
+  let behind = fun r -> map0 (fun e -> ((addn n (fst e)), (snd e))) r in
+  let a = row q.quadratic_a in
+  let b = row q.quadratic_b in
+  let c = row q.quadratic_c in
+  { given_order = (addn n n); given_a =
+  (cat
+    (map0 (fun i ->
+      cat (b i) (cat (opposite_row (c i)) (behind (cat (a i) (cat (opposite_row (b i)) (c i))))))
+      numbers)
+    (map0 (fun i -> (i, ((Big_int_Z.minus_big_int Big_int_Z.unit_big_int),
+      Big_int_Z.unit_big_int)) :: (((addn n i), (Big_int_Z.unit_big_int,
+      Big_int_Z.unit_big_int)) :: [])) numbers)); given_b =
+  (cat (map0 c numbers)
+    (map0 (fun i -> ((addn n i), (Big_int_Z.unit_big_int, Big_int_Z.unit_big_int)) :: [])
+      numbers)); given_free = (iota n n) }
 
 type contact =
 | NotInContact
@@ -5238,6 +5273,7 @@ type rational_body = { body_degrees : int; body_stiffness : rational_row list;
 type problem =
 | GivenPencil of rational_pencil
 | GivenEigenvalue of rational_pencil
+| GivenQuadratic of rational_quadratic
 | GivenSystem of rational_system * unknown
 | GivenMembers of rational_system * rational_radii
 | GivenPlain of rational_mcp_row list
@@ -5435,8 +5471,6 @@ let exact_mcp_row c r =
 
 let scaled c = function
 | GivenPencil q -> if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
-| GivenEigenvalue q ->
-  if exact_pencil c q then Some (PencilProblem (scaled_pencil c q)) else None
 | GivenSystem (b, u) ->
   if exact_system c b
   then Some
@@ -5448,6 +5482,13 @@ let scaled c = function
   if (&&) (Z.ltb Big_int_Z.zero_big_int c.entry_scale) (all (exact_mcp_row c) rows)
   then Some (PlainProblem (map0 (fun r -> scaled_mcp_row c r) rows))
   else None
+| _ -> None
+
+(** val signed_pencils : problem -> (rational_pencil * rational_pencil) option **)
+
+let signed_pencils = function
+| GivenEigenvalue q -> Some (q, (reflected q))
+| GivenQuadratic q -> Some ((linearized q), (linearized (reflected_quadratic q)))
 | _ -> None
 
 (** val pencil_of_integral : integral -> pencil **)
@@ -5469,6 +5510,7 @@ let complementarity = function
   filter (fun i ->
     negb (in_mem (Obj.magic i) (mem (seq_predType nat_eqType) (Obj.magic q.given_free))))
     (iota 0 q.given_order)
+| GivenQuadratic q -> iota 0 q.quadratic_order
 | GivenSystem (b, _) ->
   iota
     (count (fun d ->
@@ -6505,37 +6547,41 @@ let joined below1 above0 =
           | NotToldApart -> NotToldApart
           | _ -> EvidenceRefused)
 
+(** val signed_answer : rational_pencil -> rational_pencil -> scales -> evidence -> answered **)
+
+let signed_answer q q' c e = match e with
+| Reflected e0 -> below_zero (scaled_answer (GivenPencil q') c e0)
+| OfBothSigns (e0, e') ->
+  joined (scaled_answer (GivenPencil q') c e0) (scaled_answer (GivenPencil q) c e')
+| _ -> scaled_answer (GivenPencil q) c e
+
 (** val answer : problem -> scales -> evidence -> answered **)
 
 let answer p c e =
-  match p with
-  | GivenEigenvalue q ->
-    (match e with
-     | Reflected e0 -> below_zero (scaled_answer (GivenPencil (reflected q)) c e0)
-     | OfBothSigns (e0, e') ->
-       joined (scaled_answer (GivenPencil (reflected q)) c e0)
-         (scaled_answer (GivenPencil q) c e')
+  match signed_pencils p with
+  | Some p0 -> let (q, q') = p0 in signed_answer q q' c e
+  | None ->
+    (match p with
+     | GivenSystem (b, _) ->
+       (match e with
+        | DefiniteRates (lo, hi, w, low, high) ->
+          proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates (lo, hi))
+        | Stable (lo, hi, w, d, low, high) ->
+          proved_if (check_given_stable c b w d lo hi low high) (StableForFriction (lo, hi))
+        | _ -> scaled_answer p c e)
+     | GivenMembers (b, radii) ->
+       (match e with
+        | MembersAbsence (from, bound1, shares, unit0, w, tr) ->
+          proved_if (check_radii_absent c b radii shares unit0 w tr from bound1)
+            (NoneForFriction (from, bound1))
+        | MembersPresence (from, bound1, shares, unit0, w, pieces) ->
+          proved_if (check_radii_present c b radii shares unit0 w pieces from bound1)
+            (OneForEachFriction (from, bound1))
+        | _ -> scaled_answer p c e)
+     | GivenLoads b ->
+       (match e with
+        | Equilibrium (mu, amounts, states0, w) ->
+          proved_if (check_equilibrium b mu amounts states0 c.entry_scale w) (InEquilibrium
+            (mu, amounts, states0))
+        | _ -> scaled_answer p c e)
      | _ -> scaled_answer p c e)
-  | GivenSystem (b, _) ->
-    (match e with
-     | DefiniteRates (lo, hi, w, low, high) ->
-       proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates (lo, hi))
-     | Stable (lo, hi, w, d, low, high) ->
-       proved_if (check_given_stable c b w d lo hi low high) (StableForFriction (lo, hi))
-     | _ -> scaled_answer p c e)
-  | GivenMembers (b, radii) ->
-    (match e with
-     | MembersAbsence (from, bound1, shares, unit0, w, tr) ->
-       proved_if (check_radii_absent c b radii shares unit0 w tr from bound1) (NoneForFriction
-         (from, bound1))
-     | MembersPresence (from, bound1, shares, unit0, w, pieces) ->
-       proved_if (check_radii_present c b radii shares unit0 w pieces from bound1)
-         (OneForEachFriction (from, bound1))
-     | _ -> scaled_answer p c e)
-  | GivenLoads b ->
-    (match e with
-     | Equilibrium (mu, amounts, states0, w) ->
-       proved_if (check_equilibrium b mu amounts states0 c.entry_scale w) (InEquilibrium (mu,
-         amounts, states0))
-     | _ -> scaled_answer p c e)
-  | _ -> scaled_answer p c e

@@ -1752,7 +1752,16 @@ type rational_row = (int * rational0) list
 type rational_pencil = { given_order : int; given_a : rational_row list;
                          given_b : rational_row list; given_free : int list }
 
+val opposite_row : rational_row -> rational_row
+
 val reflected : rational_pencil -> rational_pencil
+
+type rational_quadratic = { quadratic_order : int; quadratic_a : rational_row list;
+                            quadratic_b : rational_row list; quadratic_c : rational_row list }
+
+val reflected_quadratic : rational_quadratic -> rational_quadratic
+
+val linearized : rational_quadratic -> rational_pencil
 
 type contact =
 | NotInContact
@@ -1785,6 +1794,7 @@ type rational_body = { body_degrees : int; body_stiffness : rational_row list;
 type problem =
 | GivenPencil of rational_pencil
 | GivenEigenvalue of rational_pencil
+| GivenQuadratic of rational_quadratic
 | GivenSystem of rational_system * unknown
 | GivenMembers of rational_system * rational_radii
 | GivenPlain of rational_mcp_row list
@@ -1853,6 +1863,8 @@ val scaled_mcp_row : scales -> rational_mcp_row -> mcp_row
 val exact_mcp_row : scales -> rational_mcp_row -> bool
 
 val scaled : scales -> problem -> integral option
+
+val signed_pencils : problem -> (rational_pencil * rational_pencil) option
 
 val pencil_of_integral : integral -> pencil
 
@@ -2170,5 +2182,7 @@ val scaled_answer : problem -> scales -> evidence -> answered
 val below_zero : answered -> answered
 
 val joined : answered -> answered -> answered
+
+val signed_answer : rational_pencil -> rational_pencil -> scales -> evidence -> answered
 
 val answer : problem -> scales -> evidence -> answered

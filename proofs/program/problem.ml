@@ -119,28 +119,35 @@ let digest_of lines = Sha256.hex (String.concat "" (List.map (fun line -> line ^
 
 let canonical unknown lines = ["mceip-canonical/1"; "unknown " ^ unknown] @ lines
 
-let pencil_lines free a b =
+let pencil_lines ?c free a b =
   ["pencil"; String.concat " " ("free" :: List.map string_of_int free)]
   @ canonical_matrix "a" a @ canonical_matrix "b" b
+  @ (match c with Some c -> canonical_matrix "c" c | None -> [])
 
 let rational_rows m =
   List.map (List.map (fun (j, v) -> j, point_of v)) (Array.to_list m.entries)
 
 let read_pencil folder unknown item =
-  let field = fields ["a"; "b"] ["free"] item in
+  let field = fields ["a"; "b"] ["free"; "c"] item in
   let a = read_matrix folder (field "a") and b = read_matrix folder (field "b") in
+  let c = match field "c" with Null -> None | c -> Some (read_matrix folder c) in
   let n = a.rows in
-  if n = 0 || a.cols <> n || b.rows <> n || b.cols <> n then
-    malformed "a and b must be square, of one order";
+  if n = 0 || List.exists (fun m -> m.rows <> n || m.cols <> n) (a :: b :: Option.to_list c) then
+    malformed "a, b and c must be square, of one order";
   let free = List.map (index n) (list_or_none "free" item) in
   let sorted = List.sort_uniq compare free in
   if List.length sorted < List.length free then malformed "an index of free twice";
   if unknown = "eigenvalue" && free <> [] then malformed "free: no index for eigenvalue";
-  let pencil = { Kernel.given_order = n; given_a = rational_rows a; given_b = rational_rows b;
-                 given_free = sorted } in
-  let given = if unknown = "eigenvalue" then Kernel.GivenEigenvalue pencil
-    else GivenPencil pencil in
-  pencil_lines sorted a b, given, None
+  let given_a = rational_rows a and given_b = rational_rows b in
+  let pencil = { Kernel.given_order = n; given_a; given_b; given_free = sorted } in
+  let given = match c with
+    | Some c when unknown = "eigenvalue" ->
+      Kernel.GivenQuadratic { quadratic_order = n; quadratic_a = given_a; quadratic_b = given_b;
+                              quadratic_c = rational_rows c }
+    | Some _ -> malformed "c: expected it with the unknown eigenvalue only, got %s" unknown
+    | None when unknown = "eigenvalue" -> GivenEigenvalue pencil
+    | None -> GivenPencil pencil in
+  pencil_lines ?c sorted a b, given, None
 
 let plain_frame = (Q.one, Q.zero), (Q.zero, Q.one)
 

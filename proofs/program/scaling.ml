@@ -10,7 +10,8 @@ type t = {
   unknown : string;
   digest : string;
   scales : Kernel.scales;
-  question : Kernel.integral;
+  question : Kernel.integral;  (* of an eigenvalue problem, for its values t >= 0 *)
+  below : Kernel.integral option;  (* of one for its values t <= 0, -t in place of t *)
   members : members option;  (* of a body with radii; the question is then about the middle *)
   common : Z.t;  (* the factor of the entries; for a system, of those of the free rows *)
   slip_common : Z.t }  (* the factor of the entries of the complementarity rows *)
@@ -58,8 +59,11 @@ let of_problem (problem : Problem.t) =
         | None -> Mu in
       Kernel.GivenSystem (s, unknown), Some radii, radii.radii_of_stiffness @ radii.radii_of_mass
     | given -> given, None, [] in
+  let given, below = match Kernel.signed_pencils given with
+    | Some (above, below) -> Kernel.GivenPencil above, Some (Kernel.GivenPencil below)
+    | None -> given, None in
   let scales, friction = match given with
-    | GivenPencil p | GivenEigenvalue p ->
+    | GivenPencil p ->
       { Kernel.entry_scale = of_rows (of_rows Z.one p.given_a) p.given_b;
         length_scale = Z.one }, Z.one
     | GivenSystem (s, unknown) ->
@@ -72,11 +76,13 @@ let of_problem (problem : Problem.t) =
             curvatures;
         length_scale = List.fold_left length Z.one (Kernel.slipping s @ Kernel.with_zero s) },
       (match unknown with Mu -> Z.one | Lambda2 (_, q) -> q)
-    | GivenMembers _ | GivenPlain _ | GivenLoads _ -> invalid_arg "no eigenproblem" in
+    | GivenEigenvalue _ | GivenQuadratic _ | GivenMembers _ | GivenPlain _ | GivenLoads _ ->
+      invalid_arg "no eigenproblem" in
   let length = scales.length_scale in
   let common = Z.mul scales.entry_scale length in
   let question = scaled scales given in
   { unknown = problem.unknown; digest = problem.digest; scales; question;
+    below = Option.map (scaled scales) below;
     members = Option.map (members_of scales question) radii; common;
     slip_common = Z.mul common (Z.mul length friction) }
 
@@ -101,9 +107,7 @@ let reversed problem (pencil : Kernel.pencil) =
   { problem with digest = Problem.(digest_of (canonical problem.unknown lines));
                  question = PencilProblem reverse }
 
-(* The reflected pencil (certificates.md, 5.2, Values below 0) of an eigenvalue problem. *)
-let reflected problem = match problem.question with
-  | Kernel.PencilProblem pencil ->
-    let rows_b = List.map (List.map (fun (j, v) -> j, Z.neg v)) pencil.rows_b in
-    { problem with question = PencilProblem { pencil with rows_b } }
-  | _ -> invalid_arg "values below 0 of a system"
+(* The reflected problem (certificates.md, 5.2, Values below 0) of an eigenvalue problem. *)
+let reflected problem = match problem.below with
+  | Some question -> { problem with question }
+  | None -> invalid_arg "values below 0 of a system"
