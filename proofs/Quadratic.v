@@ -120,7 +120,7 @@ rewrite z_is //; move: (a i j) (b i j) (c i j) => *; field.
 by rewrite gt_eqF // one_t_gt0.
 Qed.
 
-(* The variables x_i and z_i, and the other way round. *)
+(* The numbers of x_i and of z_i. *)
 Lemma in_halves i : i \in iota 0 n -> i \in iota 0 (n + n) /\ (n + i)%N \in iota 0 (n + n).
 Proof. by rewrite !mem_iota !add0n /= ltn_add2l => lt_i; rewrite ltn_addr. Qed.
 

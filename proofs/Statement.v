@@ -527,20 +527,20 @@ End Statements.
 (* Solutions with t <= 0, at -t, and with t >= 0; both, with t of either sign. *)
 Section BothSigns.
 
-Variables (B A : semantics) (solved : R -> (nat -> R) -> Prop).
+Variables (negative positive : semantics) (solved : R -> (nat -> R) -> Prop).
 
 (* All solutions of an eigenvalue problem with -a <= t <= b.  If the sets are told apart, none of
    them is listed in both. *)
 Definition all_of_both_signs_are a b (below above : solution_set) := exists l l',
-  [/\ different_solutions B zero a below l, different_solutions A zero b above l',
+  [/\ different_solutions negative zero a below l, different_solutions positive zero b above l',
       told_apart below above -> forall m m', List.In m l -> List.In m' l' -> - m.1 <> m'.1 &
       forall t x, solved t x -> between t (opposite a) b ->
-        is_among B below l (- t) x \/ is_among A above l' t x].
+        is_among negative below l (- t) x \/ is_among positive above l' t x].
 
 Definition both_signs_mean a b (below above : solution_set) :=
   [/\ all_of_both_signs_are a b below above,
-      forall f, List.In f (families_of_set below) -> family_exists B f &
-      forall f, List.In f (families_of_set above) -> family_exists A f].
+      forall f, List.In f (families_of_set below) -> family_exists negative f &
+      forall f, List.In f (families_of_set above) -> family_exists positive f].
 
 End BothSigns.
 
