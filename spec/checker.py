@@ -436,17 +436,30 @@ class Problem:
         self.s = [i for i in range(self.n) if i not in is_free]
 
     def read_pencil(self, obj, folder):
-        a, b, free = fields(obj, "a b", "free")
-        a, b = read_matrix(a, folder, "a"), read_matrix(b, folder, "b")
-        self.n = len(a.rows)
-        if self.n == 0 or {len(a.rows), a.cols, len(b.rows), b.cols} != {self.n}:
-            raise Unreadable("a and b must be square, of one order")
+        *_, free = fields(obj, "a b", "c free")
+        named = [(name, read_matrix(obj[name], folder, name)) for name in "abc" if name in obj]
+        self.n = len(named[0][1].rows)
+        if self.n == 0 or any((len(m.rows), m.cols) != (self.n, self.n) for _, m in named):
+            raise Unreadable("the matrices of a pencil must be square, of one order")
         free = [index(i, self.n) for i in sequence(obj.get("free", []))]
-        if len(set(free)) < len(free) or (free and self.unknown == "eigenvalue"):
-            raise Unreadable("free: an index twice, or one at all for eigenvalue")
-        self.free, self.a, self.b = sorted(free), a.rows, b.rows
-        ea, eb = a.entries(), b.entries()
-        return ["pencil", " ".join(["free", *map(str, self.free)]), "a " + ea[0], *ea[1:], "b " + eb[0], *eb[1:]]
+        if self.unknown == "eigenvalue" and free or self.unknown != "eigenvalue" and "c" in obj or len(set(free)) < len(free):
+            raise Unreadable("free: an index twice, or one at all for eigenvalue; c: for eigenvalue alone")
+        self.free, self.powers = sorted(free), [m.rows for _, m in named]
+        text = ["pencil", " ".join(["free", *map(str, self.free)])]
+        self.a, self.b = self.powers if len(self.powers) == 2 else linear_form(*self.powers)
+        if len(self.powers) == 3:
+            self.free, self.n = list(range(self.n, 2 * self.n)), 2 * self.n
+        for name, m in named:
+            head, *entries = m.entries()
+            text += [f"{name} {head}", *entries]
+        return text
+
+    def reflected(self):
+        """The problem in s = -t (C, 5.2)."""
+        a, b, *c = self.powers
+        b = [{j: -v for j, v in row.items()} for row in b]
+        a, b = linear_form(a, b, *c) if c else (a, b)
+        return SimpleNamespace(**{**vars(self), "a": a, "b": b})
 
     def read_system(self, obj, folder):
         k, particles, m, mu, radii = fields(obj, "stiffness particles", "mass friction radii")
@@ -605,6 +618,15 @@ def project(test, k, trial):
                         row[j] = row.get(j, 0) + c * v * g
         out.append({j: v for j, v in row.items() if v})
     return out
+
+
+def linear_form(a, b, c):
+    """The pencil in x and z = x/(1 + t) of a + t b + t^2 c (C, 5.2)."""
+    n, upper = len(a), []
+    for a_i, b_i, c_i in zip(a, b, c):
+        row = {**plus(b_i, c_i, -1), **{n + j: v for j, v in plus(plus(a_i, b_i, -1), c_i).items()}}
+        upper.append({j: v for j, v in row.items() if v})
+    return upper + [{i: Q(-1), n + i: Q(1)} for i in range(n)], c + [{n + i: Q(1)} for i in range(n)]
 
 
 def integral_rows(p):
@@ -2745,8 +2767,7 @@ def check(problem_path, certificate_path):
     if negative is not None:
         if unknown != "eigenvalue":
             raise Unreadable("negative: only for eigenvalue")
-        reflected = SimpleNamespace(**{**vars(p), "b": [{j: -v for j, v in row.items()} for row in p.b]})
-        parts.append((reflected, -1, *fields(negative, "window claims", "complete_set")))
+        parts.append((p.reflected(), -1, *fields(negative, "window claims", "complete_set")))
     parts = [(pencil, sign, read_window(window), claims, complete) for pencil, sign, window, claims, complete in parts]
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(p.radii is None, "Radii: this kind of certificate speaks of one body")
