@@ -83,6 +83,23 @@ def test_pareto_eigenvalues_of_both_signs() -> None:
     assert certified.solution.value == -6
 
 
+def test_quadratic_eigenvalues_of_both_signs() -> None:
+    a, b, c = np.eye(2), np.array([[-3.0, 1], [0, 5]]), np.diag([2.0, 6])
+    problem = mceip.Problem.qeicp(a, b, c)
+    found = problem.complete()
+    assert found.is_complete
+    assert [solution.value for solution in found.solutions] == [-3, -2, 1, 2]
+    mceip.check(problem, found.certificate)
+
+    for solution in found.solutions:
+        t, x = solution.value, solution.x
+        assert (t * t * a + t * b + c) @ x == pytest.approx(solution.y, abs=1e-9)
+        assert len(x) == 2 and min(x) >= 0
+
+    with pytest.raises(mceip.MceipError, match="b: expected a matrix of shape 3 x 3"):
+        mceip.Problem.qeicp(np.eye(3), b, c)
+
+
 def test_a_family_below_zero_has_no_start() -> None:
     # (t B - A) x = (0, x_1 - t x_0): x = (1, 0) for every t <= 0, x = (1, t) above.
     a, b = np.array([[0.0, 0], [0, -1]]), np.array([[0.0, 0], [-1, 0]])

@@ -1,6 +1,6 @@
-//! Eigenvalue complementarity problems, linear and quadratic: values of both signs, against the exact
-//! enumerator, which goes through the whole real line and knows no reflection and no linear form;
-//! and what the literature has counted.
+//! Eigenvalue complementarity problems, linear and quadratic: values of both signs, against the
+//! exact enumerator, which goes through the whole real line and knows no reflection and no linear
+//! form; and what the literature has counted.
 #![cfg(feature = "testkit")]
 
 use crate::cover::disagreements;
@@ -296,6 +296,24 @@ fn a_point_below_zero_is_certified() {
     let above = problem.in_window(Rational::default(), None).unwrap();
     assert!(above.certify(-2.0, &[1.0]).is_err());
     assert!(above.complete().run().unwrap().is_empty());
+}
+
+/// (t - 2)(t + 3) x: both roots are certified from x alone, and no other value.
+#[test]
+fn a_point_of_a_quadratic_problem_is_certified() {
+    let [a, b, c] = [1.0, 1.0, -6.0].map(|v| Matrix::from_rows(&[[v]]).unwrap());
+    let problem = Problem::qeicp(a, b, c).unwrap();
+
+    for root in [2, -3] {
+        let certified = problem.certify(f64::from(root) + 1e-7, &[5.0]).unwrap();
+        assert_eq!(certified.solution.value, f64::from(root));
+        assert_eq!(certified.solution.x, [1.0]);
+        let accepted = check(&problem, certified.certificate()).unwrap();
+        assert!(accepted.claims[0].value.contains(&whole(root.into())));
+    }
+    for other in [-2.0, 3.0, 0.0] {
+        assert!(problem.certify(other, &[5.0]).is_err());
+    }
 }
 
 /// A certificate of a pencil is none of its eigenvalue problem.

@@ -320,6 +320,8 @@ fn malformed_problems_are_invalid_or_wrong_in_meaning() {
         "non-symmetric",
         "not-square",
         "particle-twice",
+        "quadratic-not-square",
+        "quadratic-other-order",
         "ragged",
         "reaction-outside-cone",
         "window-negative",

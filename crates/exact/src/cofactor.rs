@@ -1,13 +1,13 @@
-//! Cofactors of a matrix polynomial: the null vector of a singular value by Cramer's rule, all values
-//! at once.
+//! Cofactors of a matrix polynomial: the null vector of a singular value by Cramer's rule, all
+//! values at once.
 //!
-//! The cofactors C_1, ..., C_n of the first row of M = A + tB + ... satisfy sum_j m_ij C_j = 0 for i > 1
-//! (expansion of a determinant with two equal rows) and sum_j m_1j C_j = det M. So where det M = 0
-//! the vector C is in the kernel of M, and where C != 0 the rank is n - 1 and C spans it.
+//! The cofactors C_1, ..., C_n of the first row of M = A + tB + ... satisfy sum_j m_ij C_j = 0 for
+//! i > 1 (expansion of a determinant with two equal rows) and sum_j m_1j C_j = det M. So where
+//! det M = 0 the vector C is in the kernel of M, and where C != 0 the rank is n - 1 and C spans it.
 //!
 //! C is, up to a sign, the null vector of the last n - 1 rows whose entries are their maximal
-//! minors; fraction-free elimination finds it at the integers t = 0, ..., d (n - 1), d the degree of
-//! M, and interpolation gives the polynomials.
+//! minors; fraction-free elimination finds it at the integers t = 0, ..., d (n - 1), d the degree
+//! of M, and interpolation gives the polynomials.
 //!
 //! Called by the oracle and the search, which then need no elimination at an algebraic number.
 
@@ -18,9 +18,9 @@ use num_traits::{One, Zero};
 /// The cofactors of the first row of A + tB + ..., of degree d in t and order n, as polynomials of
 /// degree d (n - 1) at most.
 ///
-/// Where the determinant is 0 the vector is in the kernel (expansion along any other row has two equal
-/// rows), and where it is not zero the rank is n - 1, so that it spans the kernel. The values at
-/// t = 0, ..., d (n - 1) determine it, as they do the determinant ([`super::determinant`]).
+/// Where the determinant is 0 the vector is in the kernel (expansion along any other row has two
+/// equal rows), and where it is not zero the rank is n - 1, so that it spans the kernel. The values
+/// at t = 0, ..., d (n - 1) determine it, as they do the determinant ([`super::determinant`]).
 ///
 /// ```
 /// use mceip_exact::{first_row_cofactors, Integer, Poly};

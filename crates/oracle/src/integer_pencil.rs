@@ -1,5 +1,5 @@
-//! The pencil A + tB, or A + tB + t^2 C, with integer entries, and the linear algebra that (24)-(26)
-//! ask of its blocks.
+//! The pencil A + tB, or A + tB + t^2 C, with integer entries, and the linear algebra that
+//! (24)-(26) ask of its blocks.
 //!
 //! Each row of the coefficients is multiplied by a positive integer that clears its denominators.
 //! Neither the kernel of a block of rows and columns nor the sign of an entry of y = (A + tB) x

@@ -12,8 +12,8 @@
 //! is listed twice. Two things are not decided here: kernels of more than one dimension (`cone`)
 //! and blocks whose determinant vanishes identically (`range`).
 //!
-//! Input: any pencil or quadratic pencil, no hypothesis, and a closed [`RealWindow`]. Every decision
-//! is exact.
+//! Input: any pencil or quadratic pencil, no hypothesis, and a closed [`RealWindow`]. Every
+//! decision is exact.
 
 use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::{Eigenspace, IntegerPencil};
