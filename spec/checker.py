@@ -436,13 +436,14 @@ class Problem:
         self.s = [i for i in range(self.n) if i not in is_free]
 
     def read_pencil(self, obj, folder):
-        *_, free = fields(obj, "a b", "c free")
-        named = [(name, read_matrix(obj[name], folder, name)) for name in "abc" if name in obj]
+        *_, c, free = fields(obj, "a b", "c free")
+        names = "ab" if c is None else "abc"
+        named = [(name, read_matrix(obj[name], folder, name)) for name in names]
         self.n = len(named[0][1].rows)
         if self.n == 0 or any((len(m.rows), m.cols) != (self.n, self.n) for _, m in named):
             raise Unreadable("the matrices of a pencil must be square, of one order")
         free = [index(i, self.n) for i in sequence(obj.get("free", []))]
-        if self.unknown == "eigenvalue" and free or self.unknown != "eigenvalue" and "c" in obj or len(set(free)) < len(free):
+        if self.unknown == "eigenvalue" and free or self.unknown != "eigenvalue" and c is not None or len(set(free)) < len(free):
             raise Unreadable("free: an index twice, or one at all for eigenvalue; c: for eigenvalue alone")
         self.free, self.powers = sorted(free), [m.rows for _, m in named]
         text = ["pencil", " ".join(["free", *map(str, self.free)])]
