@@ -58,8 +58,8 @@ class Problem:
         (A + t B) x = y,   y_f = 0,   0 <= x_s  _|_  y_s >= 0
 
     t is lambda^2, the square of a growth rate, or mu, the friction coefficient at which a
-    quasi-static motion begins, or an eigenvalue of either sign (`Problem.eicp`). A and B come from
-    a mechanical system or are given.
+    quasi-static motion begins, or an eigenvalue of either sign (`Problem.eicp`; `Problem.qeicp`
+    has t^2 as well). A and B come from a mechanical system or are given.
 
     `solve`, `complete` and `analyze` leave the interpreter to other threads, and end with
     `KeyboardInterrupt` on Ctrl-C. They take `progress`: a function of a line of text, the steps

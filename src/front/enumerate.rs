@@ -136,7 +136,9 @@ impl<'a> Enumerate<'a> {
             let step = |done, total| step("supports", done, total);
             Listing::Supports(match problem.body() {
                 Body::Quadratic(quadratic) => enumerate_with(quadratic, real_window, step)?,
-                _ => enumerate_with(&reduced.pencil, real_window, step)?,
+                Body::Pencil(_) | Body::System(_) => {
+                    enumerate_with(&reduced.pencil, real_window, step)?
+                }
             })
         } else {
             let step = |done, total| step("choices of modes", done, total);

@@ -186,7 +186,7 @@ fn quadratic_eigenvalues_are_those_of_the_enumerator() {
 
 /// 2,000 of them, of larger orders as well.
 #[test]
-#[ignore = "takes three minutes on two quiet cores"]
+#[ignore = "takes four minutes on two quiet cores"]
 fn more_quadratic_eigenvalues_are_those_of_the_enumerator() {
     quadratic_campaign(2000, 4).assert_floors(&[
         ("a solution below 0", 700),

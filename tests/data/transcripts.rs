@@ -118,6 +118,11 @@ impl Block {
             std::fs::write(folder.join(file), &self.lines).unwrap();
         }
         if !self.is_console {
+            let has_command = self.lines.lines().any(|line| line.starts_with("$ mceip "));
+            assert!(
+                !has_command,
+                "a command that is not run: a block without `console`"
+            );
             return self.lines.clone();
         }
 

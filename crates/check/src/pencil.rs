@@ -101,17 +101,21 @@ impl Rows {
 
     /// The rows of the reflected problem: of (A, -B), or of (A, -B, C).
     pub(super) fn reflected(&self, problem: &Problem) -> Rows {
-        if let Body::Quadratic(quadratic) = problem.body() {
-            let [a, b, c] = quadratic.coefficients();
-            return of_quadratic(a, &b.negated(), c);
-        }
+        match problem.body() {
+            // Not the rows of (A', -B'): there z would be x / (1 - s).
+            Body::Quadratic(quadratic) => {
+                let [a, b, c] = quadratic.coefficients();
+                of_quadratic(a, &b.negated(), c)
+            }
+            Body::Pencil(_) | Body::System(_) => {
+                let mut reflected = self.clone();
+                for (_, _, b) in reflected.rows.iter_mut().flatten() {
+                    *b = -&*b;
+                }
 
-        let mut reflected = self.clone();
-        for (_, _, b) in reflected.rows.iter_mut().flatten() {
-            *b = -&*b;
+                reflected
+            }
         }
-
-        reflected
     }
 
     fn with_capacity(order: usize) -> Rows {
@@ -675,7 +679,7 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
     use mceip_model::reduction::reduce;
-    use mceip_model::{Curvature, Pencil, Window};
+    use mceip_model::{Curvature, Pencil, QuadraticPencil, Window};
 
     /// A symmetric matrix of order 6 with entries from -3 to 3 over `denominator`, and `diagonal`
     /// added to its diagonal.
@@ -875,6 +879,32 @@ mod tests {
             assert_eq!(added(2), rational(53 * 3 * -5, 49 * 7 * 2));
             if second != ContactState::Zero {
                 assert_eq!(added(3), rational(541 * 5, 441));
+            }
+        }
+    }
+
+    /// The linear form that the model makes, of the problem and of its reflection.
+    #[test]
+    fn the_rows_of_a_quadratic_pencil_are_its_linear_form() {
+        let matrix = |seed: i64| {
+            let entry = |i: i64, j: i64| rational((seed + 5 * i * i + 3 * j) % 7 - 3, 1 + i);
+            let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+            let entries = places.map(|(i, j)| (i as usize, j as usize, entry(i, j)));
+            Sparse::from_entries(3, 3, entries)
+        };
+        let quadratic = QuadraticPencil::new(matrix(1), matrix(2), matrix(4)).unwrap();
+        let body = Body::Quadratic(quadratic.clone());
+        let problem = Problem::new(body, Unknown::Eigenvalue, Window::all()).unwrap();
+
+        let rows = Rows::of(&problem);
+        let reflected = rows.reflected(&problem);
+        let linear = quadratic.linear_form().unwrap();
+        let reflected_form = quadratic.reflected().linear_form().unwrap();
+        assert_ne!(linear, reflected_form);
+        for (rows, form) in [(rows, linear), (reflected, reflected_form)] {
+            assert_eq!(rows.order(), 6);
+            for i in 0..6 {
+                assert_row(&rows, &form, i);
             }
         }
     }

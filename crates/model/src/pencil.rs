@@ -39,7 +39,7 @@ impl Unknown {
     /// The proposition that embeds this problem in an MCP.
     pub fn proposition(self) -> &'static str {
         match self {
-            // Without free variables nothing is asked of A and B.
+            // Of eigenvalues only a linear form has free variables, and their block is definite.
             Unknown::Lambda2 | Unknown::Eigenvalue => "P2",
             Unknown::Mu => "P1",
         }

@@ -10,14 +10,14 @@
 //! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
 
 use super::report::Reported;
-use crate::candidate::scaled;
+use crate::candidate::{Candidate, scaled};
 use crate::certify::rows::active;
 use crate::multistart::support;
 use crate::report::Listed;
 use crate::tolerance::VALUE_FLOOR;
 use mceip_check::certificate::Claim;
 use mceip_exact::{Rational, from_f64, to_f64};
-use mceip_model::{Body, Pencil, Problem, Reduced};
+use mceip_model::{Pencil, Problem, Reduced};
 use num_traits::{Signed, Zero};
 
 /// Errors of a reported solution, relative to the proven one.
@@ -90,16 +90,12 @@ impl Proven {
             x: Vec::new(),
             reported: listed.x.len(),
         };
+        let mut x = Vec::with_capacity(listed.x.len());
         for decimal in &listed.x {
-            proven.x.push(ProvenNumber::exact(finite(decimal)?));
+            x.push(finite(decimal)?);
         }
-        if let Body::Quadratic(_) = problem.body() {
-            // z of the linear form.
-            let divisor = 1.0 + proven.value.center.abs();
-            let z = |x_i: &ProvenNumber| ProvenNumber::exact(x_i.center / divisor);
-            let z: Vec<ProvenNumber> = proven.x.iter().map(z).collect();
-            proven.x.extend(z);
-        }
+        let candidate = Candidate::given(problem, proven.value.center, x);
+        proven.x = candidate.x.into_iter().map(ProvenNumber::exact).collect();
 
         if let Claim::EnclosedSolution(claim) = claim {
             proven.value.radius = to_f64(&claim.radius.last()?.0);
