@@ -30,7 +30,11 @@ use num_traits::{One, Zero};
 /// ```
 pub fn first_row_cofactors(coefficients: &[Vec<Vec<Integer>>]) -> Vec<Poly> {
     let n = coefficients.first().map_or(0, Vec::len);
-    let degree = n.saturating_sub(1) * coefficients.len().saturating_sub(1);
+    if n == 0 {
+        return Vec::new();
+    }
+
+    let degree = (n - 1) * (coefficients.len() - 1);
     let cofactors_at: Vec<Vec<Integer>> = (0..=degree)
         .map(|t| integer_cofactors(values_at(coefficients, t)))
         .collect();
@@ -154,5 +158,11 @@ mod tests {
         let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
         let c = first_row_cofactors(&[z([[1, 2], [3, 4]]), z([[1, 0], [0, 1]])]);
         assert_eq!(c, [Poly::from_ints(&[4, 1]), Poly::from_ints(&[-3])]);
+
+        // Of [1 + t^2, t; 2 t^2, 3], and of a matrix without rows.
+        let coefficients = [[[1, 0], [0, 3]], [[0, 1], [0, 0]], [[1, 0], [2, 0]]].map(z);
+        let c = first_row_cofactors(&coefficients);
+        assert_eq!(c, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 0, -2])]);
+        assert!(first_row_cofactors(&[vec![], vec![]]).is_empty());
     }
 }
