@@ -140,8 +140,8 @@ impl Problem {
     /// use mceip::{Matrix, Problem};
     /// // x = 1: t^2 - 3 t + 2 = 0.
     /// let [a, b, c] = [1.0, -3.0, 2.0].map(|v| Matrix::from_rows(&[[v]]));
-    /// let all = Problem::qeicp(a?, b?, c?)?.complete().run()?;
-    /// assert_eq!(all.solutions().len(), 2);
+    /// let problem = Problem::qeicp(a?, b?, c?)?;
+    /// assert_eq!(problem.window(), mceip::RealWindow::ALL);
     /// # Ok::<(), mceip::Error>(())
     /// ```
     pub fn qeicp(a: Matrix, b: Matrix, c: Matrix) -> Result<Problem, Error> {
