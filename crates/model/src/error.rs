@@ -4,6 +4,7 @@
 //! the book (as E12; `spec/README.md` says where), what was expected there and what was found.
 
 use mceip_exact::{NumberError, Rational};
+use num_traits::Signed;
 
 /// Where in a JSON text something was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,6 +98,20 @@ pub enum ModelError {
         index: usize,
         /// The pivot, or the value of the quadratic form that refutes definiteness.
         pivot: Rational,
+    },
+    /// K_ff is not positive definite, or too close to singular to be proved so: supports are
+    /// missing, or an entry of K is wrong.
+    #[error(
+        "P1: expected K_ff positive definite, got {} at degree of freedom {dof}: {}",
+        pivot_of_ldl(pivot.as_ref()),
+        why_not_held(pivot.as_ref())
+    )]
+    NotHeld {
+        /// Where LDL' ended, in the numbering of K.
+        dof: usize,
+        /// The pivot, or the value of the quadratic form that refutes definiteness; `None` where
+        /// rounding leaves its sign open.
+        pivot: Option<Rational>,
     },
     /// A large matrix too close to singular to be proved definite or not.
     #[error(
@@ -450,6 +465,25 @@ fn shortened(v: &Rational) -> String {
     } else {
         format!("{}... ({} characters)", &text[..MOST], text.len())
     }
+}
+
+/// What LDL' of K_ff ended with.
+fn pivot_of_ldl(pivot: Option<&Rational>) -> String {
+    match pivot {
+        Some(pivot) => format!("pivot {} of its LDL'", shortened(pivot)),
+        None => "a pivot of its LDL' that is 0 up to rounding".to_string(),
+    }
+}
+
+/// What such a pivot says of a body, and what to do.
+fn why_not_held(pivot: Option<&Rational>) -> &'static str {
+    if pivot.is_some_and(Signed::is_negative) {
+        return "a motion of the free degrees of freedom has negative energy, which no elastic body \
+                has: look at the signs in K";
+    }
+
+    "in these contact states the body can move without any force: hold its supports (leave \
+     their degrees of freedom out of K)"
 }
 
 /// What to do about a missing field.

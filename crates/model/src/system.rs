@@ -223,7 +223,17 @@ impl System {
         let f =
             system.dofs_outside(|state| matches!(state, ContactState::Free | ContactState::Zero));
         let k_ff = system.stiffness.submatrix(&f, &f);
-        require_definite("P1", "K_ff", &k_ff)?;
+        require_definite("P1", "K_ff", &k_ff).map_err(|error| match error {
+            ModelError::NotDefinite { index, pivot, .. } => ModelError::NotHeld {
+                dof: f[index],
+                pivot: Some(pivot),
+            },
+            ModelError::DefinitenessUndecided { index, .. } => ModelError::NotHeld {
+                dof: f[index],
+                pivot: None,
+            },
+            other => other,
+        })?;
         if let Some(mass) = &system.mass {
             require_definite("E3", "M", mass)?;
         }
@@ -809,11 +819,14 @@ mod tests {
             Err(ModelError::ZeroReaction { particle: 1 })
         );
 
-        // The third pivot of K is 0: definite on the slip particle only.
+        // K has nothing at degree of freedom 2: definite on the slip particle only.
         let ones = [0, 1, 3].map(|i| (i, i, whole(1)));
         let stiffness = Sparse::from_entries(4, 4, ones);
         let singular = System::new(stiffness, None, None, particles());
-        assert!(matches!(singular, Err(ModelError::NotDefinite { .. })));
+        assert!(matches!(
+            singular,
+            Err(ModelError::NotHeld { dof: 2, .. })
+        ));
     }
 
     #[test]
@@ -949,12 +962,7 @@ mod tests {
         let singular = System::new(Sparse::zeros(2, 2), None, None, vec![]);
         assert!(matches!(
             singular,
-            Err(ModelError::NotDefinite {
-                equation: "P1",
-                what: "K_ff",
-                index: 0,
-                ..
-            })
+            Err(ModelError::NotHeld { dof: 0, .. })
         ));
 
         let indefinite_mass =
