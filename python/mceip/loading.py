@@ -433,11 +433,12 @@ class Stretch:
             mode["v"] = [0.0 if place is None else v[place] for place in places]
         return analysis
 
-    def certify(self) -> str:
+    def certify(self) -> Certificate:
         """A certificate that there is an equilibrium in these contact states, at one amount of the
-        load inside the stretch, as the text of `mceip-equilibrium/1`. Raises `NotCertifiedError`
-        where none is found."""
-        return self._native.certify(self._number)
+        load inside the stretch (`mceip-equilibrium/1`). Raises `NotCertifiedError` where none is
+        found."""
+        certificate: Certificate = json.loads(self._native.certify(self._number))
+        return certificate
 
     def __repr__(self) -> str:
         stop = "without end" if self.stop is None else f"to {self.stop:.6g}"

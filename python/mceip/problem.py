@@ -129,13 +129,19 @@ class Problem:
         return cls(native)
 
     @classmethod
-    def friction_threshold(cls, stiffness: Any, contacts: Contacts) -> Problem:
+    def friction_threshold(
+        cls, stiffness: Any, contacts: Contacts, *, accept_warnings: bool = False
+    ) -> Problem:
         """Friction coefficients at which a quasi-static motion begins, (21)-(23).
 
         The arguments are as in `from_matrices`; a table has no reactions here.
         """
         dofs, k = triplets("stiffness", stiffness)
-        return cls(NativeProblem.friction_threshold(dofs, k, contacts_or_table(contacts)))
+        native = NativeProblem.friction_threshold(dofs, k, contacts_or_table(contacts))
+        if accept_warnings:
+            return cls(native.without_warnings())
+        warn_of(native.warnings())
+        return cls(native)
 
     @classmethod
     def from_pencil(

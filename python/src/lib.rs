@@ -21,7 +21,9 @@ use mceip_check::certificate::{
 };
 use mceip_model::file::require_format;
 use mceip_model::{Body, Radii, Window};
-use mceip_paper::{Asymmetry, Plausibility, PlausibilityInput, asymmetry, rows_alone};
+use mceip_paper::{
+    Asymmetry, ContactTable, Plausibility, PlausibilityInput, asymmetry, rows_alone,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -98,20 +100,9 @@ impl NativeProblem {
             let Body::System(system) = problem.as_model().body() else {
                 return Ok(problem);
             };
-            let system = system.clone().with_radii(radii)?;
-            let looked_at = Plausibility::new(&PlausibilityInput {
-                system: &system,
-                rows_alone: &rows_alone(system.stiffness()),
-                places: None,
-                reactions: &table.reactions,
-                asks_for_reactions: true,
-                displacements: None,
-                coordinates: None,
-                dof_names: None,
-            });
-            let body = Body::System(system);
+            let body = Body::System(system.clone().with_radii(radii)?);
             let problem = mceip_model::Problem::new(body, Unknown::Lambda2, Window::all())?;
-            Ok(Problem::from(problem).with_warnings(looked_at.warnings))
+            Ok(looked_at(problem.into(), &table, true))
         }))
     }
 
@@ -126,7 +117,10 @@ impl NativeProblem {
         let stiffness = symmetric("stiffness", dofs, stiffness)?;
         let table = contacts.table(dofs, None)?;
 
-        made(py.detach(|| Problem::friction_threshold(stiffness, table.particles)))
+        made(py.detach(|| {
+            let problem = Problem::friction_threshold(stiffness, table.particles.clone())?;
+            Ok(looked_at(problem, &table, false))
+        }))
     }
 
     /// The problem of a pencil A + tB of this order.
@@ -384,9 +378,31 @@ fn refused(error: Error) -> PyErr {
     match &error {
         Error::Rejected(rejected) => rejection(rejected),
         Error::Lean(_) => RejectedError::new_err(error.to_string()),
-        Error::NotCertified(_) => NotCertifiedError::new_err(error.to_string()),
+        Error::NotCertified(why) if !why.is_no_candidate() => {
+            NotCertifiedError::new_err(error.to_string())
+        }
         _ => MceipError::new_err(error.to_string()),
     }
+}
+
+/// The problem of a system with warnings of what looks wrong in it; `asks_for_reactions` as in
+/// [`PlausibilityInput`].
+fn looked_at(problem: Problem, table: &ContactTable, asks_for_reactions: bool) -> Problem {
+    let Body::System(system) = problem.as_model().body() else {
+        return problem;
+    };
+
+    let found = Plausibility::new(&PlausibilityInput {
+        system,
+        rows_alone: &rows_alone(system.stiffness()),
+        places: None,
+        reactions: &table.reactions,
+        asks_for_reactions,
+        displacements: None,
+        coordinates: None,
+        dof_names: None,
+    });
+    problem.with_warnings(found.warnings)
 }
 
 fn rejection(rejected: &Rejected) -> PyErr {

@@ -181,8 +181,9 @@ def test_a_point_is_certified_and_a_wrong_one_is_not(example):
     assert mceip.check(problem, certified.certificate).claims[0].support == [0, 1]
     with pytest.raises(mceip.NotCertifiedError):
         problem.certify(2.5, [0.5, 0.5])
-    with pytest.raises(mceip.MceipError):
+    with pytest.raises(mceip.MceipError, match="^expected x with 2 components, got 1$") as refused:
         problem.certify(2.0, [0.5])
+    assert refused.type is mceip.MceipError
 
 
 def test_the_analysis_encloses_the_critical_friction_and_hands_over_its_proofs(example):

@@ -313,6 +313,18 @@ def test_missing_reactions_and_supports_left_in_the_stiffness_are_said(point):
         mceip.Problem.from_matrices(stiffness, mass, "1.5", [{**ROW, **REACTION}])
 
 
+def test_the_friction_threshold_warns_of_the_same_stiffness():
+    stiffness = np.eye(4)
+    stiffness[2:, 2:] = [[3.0, -1.0], [-1.0, 1e12]]
+    with pytest.warns(mceip.ModelWarning, match="1.0000e12 at dof 3") as said:
+        problem = mceip.Problem.friction_threshold(stiffness, [ROW])
+
+    # No equilibrium is named, so that no reaction is asked for.
+    assert problem.warnings == [str(said[0].message)]
+    accepted = mceip.Problem.friction_threshold(stiffness, [ROW], accept_warnings=True)
+    assert accepted.warnings == []
+
+
 def test_warnings_name_particles_as_the_table_does():
     # On the friction cone, within a thousandth, and sticking all the same.
     nearly = {"reaction_tangential": 1.49999, "reaction_normal": -1.0}

@@ -1,5 +1,6 @@
 """Paths of bodies under loads: against the command line's example, and what is refused."""
 
+import copy
 import json
 import math
 import os
@@ -63,9 +64,9 @@ def test_states_are_certified_and_anybody_can_check_them(tmp_path):
     own = tmp_path / "loads.json"
 
     for stretch in path.stretches:
-        text = stretch.certify()
-        assert json.loads(text)["format"] == "mceip-equilibrium/1"
-    certificate.write_text(text)
+        found = stretch.certify()
+        assert found["format"] == "mceip-equilibrium/1"
+    certificate.write_text(json.dumps(found))
     own.write_text(path.loads())
 
     checker = os.path.join(EXAMPLES, "..", "checker.py")
@@ -77,17 +78,17 @@ def test_states_are_certified_and_anybody_can_check_them(tmp_path):
 def test_certificates_of_contact_states_are_checked_here_too():
     body, steps, friction = example_body()
     path = body.path(steps, friction)
-    text = path.stretches[5].certify()
+    certificate = path.stretches[5].certify()
 
-    proved = path.check(text)
+    proved = path.check(certificate)
 
     assert proved.friction == Fraction("0.8")
     assert proved.amounts[0] == 1 and 0 < proved.amounts[1] < 1
     assert list(proved.states) == list(path.stretches[5].states)
-    forged = json.loads(text)
+    forged = copy.deepcopy(certificate)
     forged["candidates"][0] = {"state": "free"}
     with pytest.raises(mceip.RejectedError):
-        path.check(json.dumps(forged))
+        path.check(forged)
     with pytest.raises(mceip.MceipError, match="mceip-equilibrium/1"):
         path.check(path.stretches[5].problem.complete().certificate)
 

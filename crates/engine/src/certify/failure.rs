@@ -106,7 +106,21 @@ pub enum AttemptFailure {
     NotContracting,
 }
 
+impl AttemptFailure {
+    /// Is it said of the numbers given, whatever the support?
+    fn is_of_no_candidate(&self) -> bool {
+        use AttemptFailure::{NotFinite, WrongLength, ZeroX};
+        matches!(self, WrongLength { .. } | NotFinite | ZeroX)
+    }
+}
+
 impl NotCertified {
+    /// Is what was given no candidate at all: of another length, not finite, or zero?
+    pub fn is_no_candidate(&self) -> bool {
+        let mut attempts = self.attempts.iter();
+        attempts.all(|attempt| attempt.failure.is_of_no_candidate())
+    }
+
     /// A failure before any support was tried.
     pub(super) fn of(failure: AttemptFailure) -> Self {
         NotCertified {
@@ -124,7 +138,10 @@ impl std::fmt::Display for NotCertified {
             if k > 0 {
                 f.write_str("; ")?;
             }
-            write!(f, "support {:?}: {}", attempt.support, attempt.failure)?;
+            if !attempt.failure.is_of_no_candidate() {
+                write!(f, "support {:?}: ", attempt.support)?;
+            }
+            write!(f, "{}", attempt.failure)?;
         }
 
         Ok(())
