@@ -8,9 +8,9 @@ use mceip::{Matrix, Problem, check};
 use mceip_check::certificate::Certificate;
 use mceip_check::{Accepted, Reason};
 use mceip_exact::{Rational, Sparse, rational, whole};
-use mceip_model::{Body, Pencil, QuadraticPencil, RealWindow, Unknown, Window};
+use mceip_model::{Body, Pencil, RealWindow, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate};
-use mceip_testkit::generators::raw::{digits, doubled, graph, identity, zeros};
+use mceip_testkit::generators::raw::{digits, of_kind, quadratic};
 use mceip_testkit::pareto::pareto_matrices;
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
@@ -30,67 +30,6 @@ fn drawn_window(rng: &mut ChaCha8Rng) -> RealWindow {
     };
     let (min, max) = (end(0.4, -8), end(0.4, 0));
     RealWindow::new(min, max).unwrap_or(RealWindow::ALL)
-}
-
-fn drawn_pencil(k: usize, rng: &mut ChaCha8Rng) -> Pencil {
-    let n = rng.random_range(1..=5);
-    let pencil = match k % 5 {
-        0 => digits(rng, n, 0),
-        1 => zeros(rng, n),
-        2 => doubled(rng, n.max(2)),
-        3 => graph(rng, n),
-        _ => identity(rng, n),
-    };
-    pencil.unwrap()
-}
-
-/// Quadratic pencils, and what may go wrong with them: nothing in particular, many zeros, a support
-/// that is singular for every t, double roots, few or no entries in C, C the identity.
-fn drawn_quadratic(k: usize, largest_order: usize, rng: &mut ChaCha8Rng) -> QuadraticPencil {
-    let n = rng.random_range(1..=largest_order);
-    let mut matrices: [Vec<Vec<i64>>; 3] = std::array::from_fn(|_| {
-        let mut row = || (0..n).map(|_| rng.random_range(-3..=3)).collect();
-        (0..n).map(|_| row()).collect()
-    });
-    let pivot = rng.random_range(0..n);
-    let other = rng.random_range(0..n);
-    let root = rng.random_range(-3..=3);
-    for (power, matrix) in matrices.iter_mut().enumerate() {
-        match k % 6 {
-            0 => {}
-            1 => matrix.iter_mut().flatten().for_each(|v| *v = (*v).max(0)),
-            2 => {
-                matrix[other] = matrix[pivot].clone();
-                matrix.iter_mut().for_each(|row| row[other] = row[pivot]);
-            }
-            3 => {
-                // Row i is (t - root)^2 on the diagonal and what is above it.
-                for (i, row) in matrix.iter_mut().enumerate() {
-                    row[..i].fill(0);
-                    row[i] = [root * root, -2 * root, 1][power];
-                }
-            }
-            4 if power == 2 => {
-                for (i, row) in matrix.iter_mut().enumerate() {
-                    row.iter_mut()
-                        .for_each(|v| *v *= i64::from(i == pivot && root > 0));
-                }
-            }
-            5 if power == 2 => {
-                for (i, row) in matrix.iter_mut().enumerate() {
-                    row.fill(0);
-                    row[i] = 1;
-                }
-            }
-            _ => {}
-        }
-    }
-
-    let [a, b, c] = matrices.map(|rows| {
-        let rows: Vec<&[i64]> = rows.iter().map(Vec::as_slice).collect();
-        Sparse::from_ints(&rows)
-    });
-    QuadraticPencil::new(a, b, c).unwrap()
 }
 
 /// What a campaign has met, so that it cannot pass by meeting nothing.
@@ -157,7 +96,8 @@ fn quadratic_campaign(pencils: usize, largest_order: usize) -> Met {
     let mut met = Met::default();
     for k in 0..pencils {
         let mut rng = mceip_testkit::generators::rng(44, k as u64);
-        let quadratic = drawn_quadratic(k, largest_order, &mut rng);
+        let n = rng.random_range(1..=largest_order);
+        let quadratic = quadratic(&mut rng, k as u64, n).unwrap();
         let window = drawn_window(&mut rng);
         let truth = enumerate(&quadratic, &window).unwrap();
         let problem = posed(Body::Quadratic(quadratic), &window);
@@ -205,8 +145,9 @@ fn more_quadratic_eigenvalues_are_those_of_the_enumerator() {
 fn eigenvalues_of_both_signs_are_those_of_the_enumerator() {
     let mut met = Met::default();
     for k in 0..250 {
-        let mut rng = mceip_testkit::generators::rng(42, k as u64);
-        let pencil = drawn_pencil(k, &mut rng);
+        let mut rng = mceip_testkit::generators::rng(42, k);
+        let n = rng.random_range(1..=5);
+        let pencil = of_kind(&mut rng, k, n).unwrap();
         let window = drawn_window(&mut rng);
         let truth = enumerate(&pencil, &window).unwrap();
         let problem = posed(Body::Pencil(pencil), &window);

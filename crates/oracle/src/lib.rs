@@ -45,7 +45,7 @@ mod table1;
 pub use degenerate::{Cone, End, SupportRange, Undescribed, ValueInterval, constants};
 pub use enumeration::{Enumeration, WideKernel};
 pub use integer_pencil::IntegerPencil;
-pub use member::{is_rational_solution, is_solution};
+pub use member::{GivenPencil, is_rational_solution, is_solution};
 pub use modes::{DegenerateChoice, ModeList, enumerate_modes, enumerate_modes_with};
 pub use physical::{
     DegenerateModes, Motion, Motions, ParticleMode, PhysicalParticle, PhysicalState,

@@ -1,19 +1,65 @@
 //! "Is this (t, x) a solution?", "is it in this answer?", and equality of answers.
 //!
 //! All three are decided by signs of integer polynomials at algebraic numbers: of x_i and of
-//! y_i = ((A + tB) x)_i against the definition (12)-(14), (21)-(23), and of 2 x 2 minors of two
-//! vectors that may be one ray.
+//! y_i = ((A + tB) x)_i, of a quadratic pencil ((A + tB + t^2 C) x)_i, against the definition
+//! (12)-(14), (21)-(23), and of 2 x 2 minors of two vectors that may be one ray.
 //!
-//! Nothing here enumerates: the question whether (t, x) is a solution is answered from the pencil
-//! alone. Called by tests of everything that claims a solution.
+//! Nothing here enumerates: the question whether (t, x) is a solution is answered from the matrices
+//! as they are given alone. Called by tests of everything that claims a solution.
 
 use super::degenerate::constants;
 use super::degenerate::{Cone, End, SupportRange, ValueInterval};
 use super::enumeration::Enumeration;
 use super::solution::Solution;
 use super::solution::equal_values;
-use mceip_exact::{Algebraic, Poly, Rational, Sign, cleared, common_denominator};
-use mceip_model::Pencil;
+use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, cleared, common_denominator};
+use mceip_model::{Pencil, QuadraticPencil};
+
+/// A pencil as it is given: what (t, x) is held against.
+pub struct GivenPencil<'a> {
+    /// The coefficients of 1, t and, of a quadratic pencil, t^2.
+    coefficients: Vec<&'a Sparse>,
+    free: &'a [usize],
+}
+
+impl<'a> From<&'a Pencil> for GivenPencil<'a> {
+    fn from(pencil: &'a Pencil) -> Self {
+        GivenPencil {
+            coefficients: vec![pencil.a(), pencil.b()],
+            free: pencil.free(),
+        }
+    }
+}
+
+impl<'a> From<&'a QuadraticPencil> for GivenPencil<'a> {
+    fn from(quadratic: &'a QuadraticPencil) -> Self {
+        GivenPencil {
+            coefficients: quadratic.coefficients().into(),
+            free: &[],
+        }
+    }
+}
+
+impl GivenPencil<'_> {
+    fn order(&self) -> usize {
+        self.coefficients[0].rows()
+    }
+
+    /// A positive multiple of y_i, row i of (A + tB + ...) x.
+    fn image(&self, i: usize, x: &[Poly]) -> Poly {
+        let rows = || self.coefficients.iter().map(|matrix| matrix.row(i));
+        let clear = common_denominator(rows().flatten().map(|(_, entry)| entry));
+
+        let mut sum = Poly::default();
+        for (power, row) in rows().enumerate() {
+            for (j, entry) in row {
+                sum += &x[*j].scale(&cleared(entry, &clear)).shift(power);
+            }
+        }
+
+        sum
+    }
+}
 
 /// Is (t, x) a solution: t >= 0, x != 0, y = (A + tB) x with y_f = 0 and 0 <= x_s _|_ y_s >= 0?
 /// x is given by integer polynomials at t, up to a positive factor. The window plays no part.
@@ -41,12 +87,16 @@ use mceip_model::Pencil;
 ///     &[whole(2), whole(1)]
 /// ));
 /// ```
-pub fn is_solution(pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> bool {
-    Signs::of(pencil, value, x).is_some_and(|signs| signs.is_solution)
+pub fn is_solution<'a>(pencil: impl Into<GivenPencil<'a>>, value: &Algebraic, x: &[Poly]) -> bool {
+    Signs::of(&pencil.into(), value, x).is_some_and(|signs| signs.is_solution)
 }
 
 /// [`is_solution`] for a rational value and vector.
-pub fn is_rational_solution(pencil: &Pencil, value: &Rational, x: &[Rational]) -> bool {
+pub fn is_rational_solution<'a>(
+    pencil: impl Into<GivenPencil<'a>>,
+    value: &Rational,
+    x: &[Rational],
+) -> bool {
     is_solution(pencil, &Algebraic::rational(value.clone()), &constants(x))
 }
 
@@ -62,7 +112,7 @@ struct Signs {
 
 impl Signs {
     /// `None` for a vector of another length than the pencil's order, and for t < 0.
-    fn of(pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> Option<Signs> {
+    fn of(pencil: &GivenPencil<'_>, value: &Algebraic, x: &[Poly]) -> Option<Signs> {
         let mut value = value.clone();
         if x.len() != pencil.order() || value.cmp_rational(&Rational::default()).is_lt() {
             return None;
@@ -75,10 +125,10 @@ impl Signs {
 
         for i in 0..pencil.order() {
             let sign_x = value.sign_of(&x[i]);
-            let sign_y = value.sign_of(&image(pencil, i, x));
+            let sign_y = value.sign_of(&pencil.image(i, x));
             is_zero_vector &= sign_x == Sign::Zero;
 
-            if pencil.free().binary_search(&i).is_ok() {
+            if pencil.free.binary_search(&i).is_ok() {
                 conditions_hold &= sign_y == Sign::Zero; // (13), (22)
                 continue;
             }
@@ -102,31 +152,17 @@ impl Signs {
     }
 }
 
-/// A positive multiple of row i of (A + tB) x.
-fn image(pencil: &Pencil, i: usize, x: &[Poly]) -> Poly {
-    let a_row = pencil.a().row(i);
-    let b_row = pencil.b().row(i);
-    let clear = common_denominator(a_row.iter().chain(b_row).map(|(_, entry)| entry));
-
-    let mut sum = Poly::default();
-
-    for (j, a_ij) in a_row {
-        sum += &x[*j].scale(&cleared(a_ij, &clear));
-    }
-
-    for (j, b_ij) in b_row {
-        sum += &x[*j].scale(&cleared(b_ij, &clear)).shift(1);
-    }
-
-    sum
-}
-
 impl Enumeration {
     /// Does this answer hold the solution (t, x)? True exactly if (t, x) solves the pencil *and* is
     /// listed, lies in a cone, or has its value in the range of its support. For a complete
     /// enumeration of `pencil` that is every solution in the window.
-    pub fn contains(&self, pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> bool {
-        let Some(signs) = Signs::of(pencil, value, x) else {
+    pub fn contains<'a>(
+        &self,
+        pencil: impl Into<GivenPencil<'a>>,
+        value: &Algebraic,
+        x: &[Poly],
+    ) -> bool {
+        let Some(signs) = Signs::of(&pencil.into(), value, x) else {
             return false;
         };
 

@@ -264,12 +264,16 @@ fn run_solver(
     }
 }
 
-/// The reduction and the enumerator's answer.
+/// The reduction and the enumerator's answer; of a quadratic pencil that on the pencil as it is
+/// given.
 pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
     let reduced = reduce(problem).and_then(Reduced::without_zero);
     let reduced = reduced.map_err(|e| Disagreement::refused("reduction", &e))?;
 
-    let oracle = enumerate(&reduced.pencil, problem.window());
+    let oracle = match problem.body() {
+        Body::Quadratic(quadratic) => enumerate(quadratic, problem.window()),
+        Body::Pencil(_) | Body::System(_) => enumerate(&reduced.pencil, problem.window()),
+    };
     let oracle = oracle.map_err(|e| Disagreement::refused("enumerator", &e))?;
 
     Ok((reduced, oracle))
@@ -402,7 +406,8 @@ fn certify_oracle(
     let mut claims = Vec::new();
 
     for (index, s) in oracle.solutions.iter().enumerate() {
-        match certifier.certify(&in_doubles(s, &slip)) {
+        let Candidate { value, x } = in_doubles(s, &slip);
+        match certifier.certify(&Candidate::given(problem, value, x)) {
             Ok(claim) => claims.push(claim),
             // A singular support has a root everywhere: its value, if irrational, cannot be told
             // from doubles.
@@ -589,7 +594,13 @@ fn is_described(answered: &Answered<'_>, claim: &Claim) -> bool {
     let oracle = answered.oracle;
     if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
         let x = integer_x(c);
-        return oracle.contains(answered.pencil, &value, &x);
+        return match answered.problem.body() {
+            // Without z of the linear form.
+            Body::Quadratic(quadratic) => {
+                oracle.contains(quadratic, &value, &x[..quadratic.order()])
+            }
+            Body::Pencil(_) | Body::System(_) => oracle.contains(answered.pencil, &value, &x),
+        };
     }
 
     let support = support(claim);

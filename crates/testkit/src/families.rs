@@ -5,7 +5,7 @@
 //! GG' + I with small integers G, so that all hypotheses of Propositions 1 and 2 hold. Called by
 //! `verify`, by the campaign, by the conformance pack and by many tests.
 
-use crate::generators::{gram, sparse, states, unknown};
+use crate::generators::{gram, raw, sparse, states, unknown, window};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
     Body, ContactState, ModelError, Particle, Pencil, Problem, System, Unknown, Window,
@@ -29,6 +29,7 @@ worded! {
     FreeVariables "free variables" "Free variables present.",
     Oblique "oblique particle" "An oblique particle.",
     Curved "curved obstacle" "A particle that slips on a curved obstacle.",
+    Quadratic "quadratic pencil" "A quadratic pencil.",
     Stick "stick particle" "A stick particle.",
     CoupledMass "mass that couples T and N" "A mass matrix that couples T and N: M1 does not \
                                              vanish.",
@@ -241,6 +242,35 @@ impl PencilShape {
             }
         }
     }
+}
+
+/// Eigenvalue complementarity problems of pencils and of quadratic ones in turn, each with what may
+/// go wrong with its kind. Windows begin at 0 or above: values below 0 are those of another pencil.
+///
+/// # Errors
+/// [`ModelError`]; none, for there are variables.
+pub fn eigenvalue_problems(count: usize, seed: u64) -> Result<Vec<Instance>, ModelError> {
+    (0..count).map(|k| eigenvalue_problem(k, seed)).collect()
+}
+
+/// The `k`-th of [`eigenvalue_problems`].
+pub(super) fn eigenvalue_problem(k: usize, seed: u64) -> Result<Instance, ModelError> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(5_800_079).wrapping_add(k as u64));
+    let kind = (k / 2) as u64;
+    let is_quadratic = k % 2 == 1;
+
+    let n = rng.random_range(1..=if is_quadratic { 3 } else { 5 });
+    let (body, corners) = if is_quadratic {
+        let quadratic = raw::quadratic(&mut rng, kind, n)?;
+        (Body::Quadratic(quadratic), vec![Corner::Quadratic])
+    } else {
+        (Body::Pencil(raw::of_kind(&mut rng, kind, n)?), Vec::new())
+    };
+
+    let word = if is_quadratic { "quadratic" } else { "linear" };
+    let label = format!("eigenvalue problem {k} (seed {seed}) n={n} {word}");
+    let problem = Problem::new(body, Unknown::Eigenvalue, window(&mut rng))?;
+    Ok(Instance::new(label, problem, corners))
 }
 
 /// Random mechanical systems with every mixture of free, stick and slip particles, oblique frames,

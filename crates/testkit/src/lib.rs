@@ -53,7 +53,8 @@ pub use completed::{compare_complete, holds_claim, is_claimed};
 pub use disagreement::Disagreement;
 pub use error::TestkitError;
 pub use families::{
-    Corner, Instance, degenerate, mechanical, random_pencils, system_of, table1_grid,
+    Corner, Instance, degenerate, eigenvalue_problems, mechanical, random_pencils, system_of,
+    table1_grid,
 };
 pub use forge::{Forgery, forgeries};
 pub use interior::{

@@ -31,7 +31,7 @@ use mceip_engine::certify::{certificate, propose};
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::reduction::reduce;
-use mceip_model::{Body, Pencil, Problem, Reduced, Unknown, Window};
+use mceip_model::{Body, Pencil, Problem, QuadraticPencil, Reduced, Unknown, Window};
 use mceip_oracle::enumerate;
 use std::path::Path;
 
@@ -151,25 +151,42 @@ fn small_problem(data: &[u8]) -> Option<Problem> {
 
     let n = order(head);
     let digit = |byte: u8| whole(i64::from(byte % 9) - 4);
-    let a = matrix_of(entries, n, 0, digit);
-    let b = matrix_of(entries, n, n * n, digit);
-    problem_of([a, b], head, mask, Window::all())
+    let matrix = |power: usize| matrix_of(entries, n, power * n * n, digit);
+    problem_of([0, 1, 2].map(matrix), head, mask, Window::all())
 }
 
-/// The order of the matrices, 1 to 4, by the first byte.
+/// Bits of the first byte: lambda^2 is sought, not mu; an eigenvalue is; of a quadratic pencil.
+const LAMBDA2: u8 = 0x10;
+const EIGENVALUE: u8 = 0x04;
+const QUADRATIC: u8 = EIGENVALUE | 0x08;
+
+/// Is it about a quadratic pencil?
+fn is_quadratic(head: u8) -> bool {
+    head & QUADRATIC == QUADRATIC
+}
+
+/// The order of the matrices by the first byte: 1 to 4, to 3 for quadratic pencils, whose linear
+/// forms are twice as large.
 fn order(head: u8) -> usize {
-    usize::from(head % 4) + 1
+    let most = if is_quadratic(head) { 3 } else { 4 };
+    usize::from(head % most) + 1
 }
 
-/// The problem of a pencil: its unknown is a bit of the first byte, its free variables are those of
-/// a bit mask.
-fn problem_of([a, b]: [Sparse; 2], head: u8, mask: u8, window: Window) -> Option<Problem> {
-    let unknown = if head & 0x10 == 0 {
-        Unknown::Mu
-    } else {
-        Unknown::Lambda2
-    };
+/// The problem of A + tB, or A + tB + t^2 C: the first byte says which number is sought, the bit
+/// mask which variables are free, of which there are none where it is an eigenvalue.
+fn problem_of([a, b, c]: [Sparse; 3], head: u8, mask: u8, window: Window) -> Option<Problem> {
+    if is_quadratic(head) {
+        let quadratic = QuadraticPencil::new(a, b, c).ok()?;
+        return Problem::new(Body::Quadratic(quadratic), Unknown::Eigenvalue, window).ok();
+    }
 
+    let (unknown, mask) = if head & EIGENVALUE != 0 {
+        (Unknown::Eigenvalue, 0)
+    } else if head & LAMBDA2 != 0 {
+        (Unknown::Lambda2, mask)
+    } else {
+        (Unknown::Mu, mask)
+    };
     let free = (0..a.rows()).filter(|i| mask >> i & 1 == 1).collect();
     let pencil = Pencil::new(a, b, free).ok()?;
     Problem::new(Body::Pencil(pencil), unknown, window).ok()

@@ -9,7 +9,9 @@ use super::block::{BlockReport, block_state};
 use super::compare::{InstanceReport, Treatment, compare_by};
 use super::disagreement::Disagreement;
 use super::error::TestkitError;
-use super::families::{Instance, degenerate, mechanical, random_pencils, table1_grid};
+use super::families::{
+    Instance, degenerate, eigenvalue_problems, mechanical, random_pencils, table1_grid,
+};
 use super::floors::{Covered, Shortfall, Starts};
 use super::tally::Tally;
 use super::verified::{VerifiedChecker, VerifiedCounts};
@@ -151,6 +153,7 @@ pub fn verify(
         ("Table 1 (two particles)", table1_grid()?),
         ("random pencils", random_pencils(random, seed)?),
         ("mechanical systems", mechanical(random / 4, seed)?),
+        ("eigenvalue problems", eigenvalue_problems(random / 4, seed)?),
         ("degenerate cases", degenerate()?),
     ];
 

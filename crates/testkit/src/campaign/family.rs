@@ -53,7 +53,7 @@ pub(super) type Make = fn(&Seed) -> Result<Made, ModelError>;
 
 /// Name, what it holds, and how an instance is made.
 #[rustfmt::skip]
-pub const FAMILIES: [(&str, &str, Make); 20] = [
+pub const FAMILIES: [(&str, &str, Make); 21] = [
     ("table1", "the two particles of Fig. 1 at random rational angles, with the closed form",
         named::table1),
     ("table1-near",
@@ -84,6 +84,7 @@ pub const FAMILIES: [(&str, &str, Make); 20] = [
         named::planted),
     ("near", "planted biactive and repeated roots, moved by 10^-3 to 10^-15", named::near),
     ("scales", "Hilbert sections, bad scaling, 10^12 to 10^60 and their inverses", named::scales),
+    ("eigenvalues", "eigenvalue problems, of pencils and of quadratic ones", named::eigenvalues),
 ];
 
 /// The instance with this name.

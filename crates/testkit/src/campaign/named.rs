@@ -88,6 +88,11 @@ pub(super) fn pencils(seed: &Seed) -> Result<Made> {
     Ok(instance.into())
 }
 
+pub(super) fn eigenvalues(seed: &Seed) -> Result<Made> {
+    let instance = families::eigenvalue_problem(seed.index as usize, seed.seed)?;
+    Ok(instance.into())
+}
+
 pub(super) fn digits(seed: &Seed) -> Result<Made> {
     let mut rng = seed.rng();
     let n_s = rng.random_range(1..=7);

@@ -7,7 +7,7 @@
 
 use super::{drawn, gram, matrix, sparse};
 use mceip_exact::{Rational, Sparse, rational, whole};
-use mceip_model::{ModelError, Pencil, Unknown};
+use mceip_model::{ModelError, Pencil, QuadraticPencil, Unknown};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -161,6 +161,68 @@ pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelErro
     let a = drawn_from(&ENTRIES, rng, n);
     let b = drawn_from(&ENTRIES, rng, n);
     Pencil::new(sparse(&a), sparse(&b), free)
+}
+
+/// A pencil without free variables, of one of the kinds above by its number.
+///
+/// # Errors
+/// [`ModelError`] for no variables.
+pub fn of_kind(rng: &mut ChaCha8Rng, kind: u64, n: usize) -> Result<Pencil, ModelError> {
+    match kind % 5 {
+        0 => digits(rng, n, 0),
+        1 => zeros(rng, n),
+        2 => doubled(rng, n.max(2)),
+        3 => graph(rng, n),
+        _ => identity(rng, n),
+    }
+}
+
+/// A + tB + t^2 C of digits up to 3. What may go wrong is chosen by `kind`: nothing in particular,
+/// many zeros, a support that is singular for every t, double roots, one row in C or none, C = I.
+///
+/// # Errors
+/// [`ModelError`] for no variables.
+pub fn quadratic(
+    rng: &mut ChaCha8Rng,
+    kind: u64,
+    n: usize,
+) -> Result<QuadraticPencil, ModelError> {
+    let mut matrices: [_; 3] = std::array::from_fn(|_| drawn(n, || rng.random_range(-3..=3)));
+    let pivot = rng.random_range(0..n.max(1));
+    let other = rng.random_range(0..n.max(1));
+    let root = rng.random_range(-3..=3);
+    for (power, matrix) in matrices.iter_mut().enumerate() {
+        match kind % 6 {
+            1 => matrix.iter_mut().flatten().for_each(|v| *v = (*v).max(0)),
+            2 => {
+                matrix[other] = matrix[pivot].clone();
+                matrix.iter_mut().for_each(|row| row[other] = row[pivot]);
+            }
+            3 => {
+                // Row i is (t - root)^2 on the diagonal and what is above it.
+                for (i, row) in matrix.iter_mut().enumerate() {
+                    row[..i].fill(0);
+                    row[i] = [root * root, -2 * root, 1][power];
+                }
+            }
+            4 if power == 2 => {
+                for (i, row) in matrix.iter_mut().enumerate() {
+                    let is_kept = i == pivot && root > 0;
+                    row.iter_mut().for_each(|v| *v *= i64::from(is_kept));
+                }
+            }
+            5 if power == 2 => {
+                for (i, row) in matrix.iter_mut().enumerate() {
+                    row.fill(0);
+                    row[i] = 1;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    let [a, b, c] = matrices.map(|rows| sparse(&rows));
+    QuadraticPencil::new(a, b, c)
 }
 
 /// Numbers with denominators, rows and columns of very different size.

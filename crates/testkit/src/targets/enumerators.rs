@@ -4,11 +4,11 @@
 //! Called by the fuzz target `complete_against_plain`.
 
 use super::{matrix_of, order, problem_of};
+use crate::compare::engines;
 use crate::completed::compare_within;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::file::write_problem;
-use mceip_model::{Body, Problem, Window};
-use mceip_oracle::enumerate;
+use mceip_model::{Problem, Window};
 
 /// The complete search, cut short after few nodes, says nothing that the plain enumerator does not;
 /// and a set it calls complete is the plain one's.
@@ -17,11 +17,9 @@ pub fn complete_against_plain(data: &[u8]) {
         return;
     };
 
-    let Body::Pencil(pencil) = problem.body() else {
-        return;
-    };
-    let Ok(plain) = enumerate(pencil, problem.window()) else {
-        panic!("the enumerator refuses {pencil:?}")
+    let plain = match engines(&problem) {
+        Ok((_, plain)) => plain,
+        Err(refused) => panic!("{refused}: {}", write_problem(&problem)),
     };
 
     if let Err(disagreement) = compare_within(&problem, &plain, NODES) {
@@ -32,6 +30,9 @@ pub fn complete_against_plain(data: &[u8]) {
 /// Nodes per piece of the complete search.
 const NODES: usize = 300;
 
+/// A bit of the first byte: B is the identity.
+const IDENTITY: u8 = 0x20;
+
 /// A pencil of order 1 to 4 in a window. The first byte chooses the form, the second the free
 /// variables, the third the window; the others are the entries.
 fn windowed(data: &[u8]) -> Option<Problem> {
@@ -41,14 +42,13 @@ fn windowed(data: &[u8]) -> Option<Problem> {
     let entries = &data[3..];
 
     let n = order(head);
-    let a = matrix_of(entries, n, 0, |byte| number(head, byte));
-    let b = if head & 0x20 == 0 {
-        matrix_of(entries, n, n * n, |byte| number(head, byte))
-    } else {
-        Sparse::identity(n)
-    };
+    let matrix = |power: usize| matrix_of(entries, n, power * n * n, |byte| number(head, byte));
+    let [a, mut b, c] = [0, 1, 2].map(matrix);
+    if head & IDENTITY != 0 {
+        b = Sparse::identity(n);
+    }
 
-    problem_of([a, b], head, mask, window(view)?)
+    problem_of([a, b, c], head, mask, window(view)?)
 }
 
 /// The lowest three bits are the lower end, the next three the width, both in halves; the highest
