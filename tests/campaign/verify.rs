@@ -85,6 +85,7 @@ fn no_disagreement() {
         Oblique,
         Stick,
         CoupledMass,
+        Quadratic,
     ] {
         assert!(reached.contains(&corner), "{corner:?} not reached");
     }
