@@ -124,6 +124,24 @@ fn quadratic_eigenvalues_are_those_of_the_enumerator() {
     ]);
 }
 
+/// Dense quadratic pencils of order 8 over the real line. What the remainders of anchors of degree
+/// 2 leave open is closed by closer ones; what is left has degenerate solutions, as that with the
+/// slip sets [2] and [2, 7] at t = 1 of number 2.
+#[test]
+fn little_stays_open_of_larger_quadratic_pencils() {
+    let mut complete = Vec::new();
+    for k in 0..10 {
+        let mut rng = mceip_testkit::generators::rng(45, k);
+        let quadratic = quadratic(&mut rng, 0, 8).unwrap();
+        let problem = posed(Body::Quadratic(quadratic), &RealWindow::ALL);
+        if problem.complete().run().unwrap().is_complete() {
+            complete.push(k);
+        }
+    }
+    println!("{complete:?}");
+    assert!(complete.len() >= 9, "{complete:?}");
+}
+
 /// 2,000 of them, of larger orders as well.
 #[test]
 #[ignore = "takes four minutes on two quiet cores"]

@@ -64,6 +64,7 @@ use mceip_check::{AcceptedClaim, AcceptedCover, Proved, check};
 use mceip_model::file::Number;
 use mceip_model::reduction::reduce;
 use mceip_model::{Pencil, Problem};
+use pieces::anchor::CLOSER;
 use pieces::prepared::Prepared;
 use rounds::{Rounds, is_open_below, values_met};
 
@@ -170,8 +171,22 @@ pub fn complete(
         prepared = with_fine_anchors(&given, prepared, options, watch);
     }
 
+    let is_expanded = prepared.is_expanded();
     let start = with_set(problem, prepared.open_set());
-    run(&given, prepared, start, options, watch)
+    let mut found = run(&given, prepared, start, options, watch)?;
+    let may_be_closer = is_expanded && options.shard.is_none();
+    if may_be_closer && !found.is_complete() && !watch.is_cancelled() {
+        let prepare = || Prepared::closer(problem, &pencil, options.pieces, CLOSER);
+        let prepared = in_threads(options.threads, prepare)?;
+        let prepared = with_fine_anchors(&given, prepared, options, watch);
+        let start = with_set(problem, prepared.open_set());
+        // What is found already stays on the disk until there is something better.
+        let closer = run(&given, prepared, start, options, &watch.kept_by(None))?;
+        if closer.is_complete() {
+            found = closer;
+        }
+    }
+    Ok(found)
 }
 
 /// Goes on with a certificate that leaves regions open: only these are searched.

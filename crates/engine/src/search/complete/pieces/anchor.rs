@@ -61,13 +61,32 @@ pub(crate) const FINE: Precision = Precision {
 #[derive(Clone, Copy)]
 pub(crate) struct Precisions {
     pub(crate) coarse: Precision,
+    /// Of the reversed anchor.
+    pub(crate) beyond: Precision,
     pub(crate) fine: Precision,
 }
 
 /// Of a window of the unknown.
 pub(crate) const OF_WINDOW: Precisions = Precisions {
     coarse: COARSE,
+    beyond: COARSE,
     fine: FINE,
+};
+
+/// Of a window that stays open with [`OF_WINDOW`]: where F changes much between two anchors, as the
+/// linear form of a quadratic pencil does, the remainder of degree 2 hides the signs of narrow
+/// margins. Each further degree leaves a tenth of it.
+pub(crate) const CLOSER: Precisions = Precisions {
+    coarse: CLOSE,
+    beyond: CLOSE,
+    fine: FINE,
+};
+
+/// The largest degree that the checker takes.
+const CLOSE: Precision = Precision {
+    degree: 7,
+    right_bits: 60,
+    left_bits: 40,
 };
 
 /// Of a family that is searched in the unknown and in the friction at once. The margins of its
@@ -80,6 +99,7 @@ pub(crate) const OF_FAMILY: Precisions = Precisions {
         right_bits: 34,
         left_bits: 20,
     },
+    beyond: COARSE,
     fine: Precision {
         degree: 3,
         right_bits: 56,

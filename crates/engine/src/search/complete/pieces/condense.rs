@@ -9,8 +9,8 @@
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
 use super::anchor::{
-    Beside, CONSTANT, ExpandedAnchor, FreeElimination, Precision, SpectrumBounds, centers,
-    columns_of_all,
+    Beside, CONSTANT, ExpandedAnchor, FreeElimination, Precision, Precisions, SpectrumBounds,
+    centers, columns_of_all,
 };
 use super::blocks::PencilBlocks;
 use super::expansion::Expansion;
@@ -74,13 +74,13 @@ impl<'a> DefinitePencils<'a> {
 /// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
 /// B_ff is indefinite.
 ///
-/// `definite` are this pencil, or others of a family with the same free rows. `coarse` is how the
-/// anchors are expanded.
+/// `definite` are this pencil, or others of a family with the same free rows. `precisions` are
+/// those of the anchors.
 pub(crate) fn condense(
     pencil: &Pencil,
     window: &Window,
     definite: DefinitePencils<'_>,
-    coarse: Precision,
+    precisions: Precisions,
 ) -> Result<Condensed, CompleteError> {
     let blocks = PencilBlocks::of(pencil);
     demand_symmetry(&blocks)?;
@@ -108,7 +108,12 @@ pub(crate) fn condense(
 
     // What stands above the anchors, and where it begins.
     let above = if window.max().is_none() && !blocks.mass_is_zero {
-        Above::of(pencil, definite.whole, elimination.bounds)
+        Above::of(
+            pencil,
+            definite.whole,
+            elimination.bounds,
+            precisions.beyond,
+        )
     } else {
         Above::Nothing
     };
@@ -128,7 +133,7 @@ pub(crate) fn condense(
     let precision = if blocks.mass_is_zero {
         CONSTANT
     } else {
-        coarse
+        precisions.coarse
     };
 
     let low = to_f64(window.min());
@@ -229,9 +234,14 @@ enum Above {
 
 impl Above {
     /// The tail, or the reversed anchor where that begins lower.
-    fn of(pencil: &Pencil, definite_above: &Pencil, bounds: SpectrumBounds) -> Above {
+    fn of(
+        pencil: &Pencil,
+        definite_above: &Pencil,
+        bounds: SpectrumBounds,
+        precision: Precision,
+    ) -> Above {
         let tail = tail(definite_above);
-        let beyond = beyond(pencil, bounds);
+        let beyond = beyond(pencil, bounds, precision);
         match (tail, beyond) {
             (Some(tail), Some(beyond)) if to_f64(&tail.from.0) > to_f64(&beyond.from) => {
                 Above::Reversed(Box::new(beyond))

@@ -331,7 +331,7 @@ fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::anchor::COARSE;
+    use super::super::anchor::OF_WINDOW;
     use super::*;
     use crate::search::complete::pieces::condense::{DefinitePencils, condense};
     use mceip_exact::{rational, whole};
@@ -358,7 +358,7 @@ mod tests {
         assert_eq!(rows[1].slip[0].at_center, 1.into());
 
         let window = Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = condense(&pencil, &window, DefinitePencils::own(&pencil), COARSE)
+        let condensation = condense(&pencil, &window, DefinitePencils::own(&pencil), OF_WINDOW)
             .unwrap()
             .condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();

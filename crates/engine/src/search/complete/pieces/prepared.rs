@@ -74,8 +74,21 @@ impl Prepared {
         pencil: &Pencil,
         count: usize,
     ) -> Result<Prepared, CompleteError> {
+        Prepared::closer(problem, pencil, count, OF_WINDOW)
+    }
+
+    /// The same with other precisions.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub(crate) fn closer(
+        problem: &Problem,
+        pencil: &Pencil,
+        count: usize,
+        precisions: Precisions,
+    ) -> Result<Prepared, CompleteError> {
         let definite = DefinitePencils::own(pencil);
-        let mut prepared = Prepared::with_precisions(problem, pencil, definite, count, OF_WINDOW)?;
+        let mut prepared = Prepared::with_precisions(problem, pencil, definite, count, precisions)?;
         prepared.view.zero = zero_of(problem);
         Ok(prepared)
     }
@@ -115,7 +128,7 @@ impl Prepared {
 
         let window = problem.window();
         if !pencil.free().is_empty() {
-            let condensed = condense(pencil, window, definite, precisions.coarse)?;
+            let condensed = condense(pencil, window, definite, precisions)?;
             return Ok(Prepared::condensed(condensed, window, count, precisions));
         }
 

@@ -4,7 +4,7 @@
 //! where expansions in t would have to follow one another for ever. It needs B_ff >= tau I with
 //! tau > 0. Called by `condense`.
 
-use super::anchor::{COARSE, ExpandedAnchor, FreeElimination, SpectrumBounds, centers};
+use super::anchor::{ExpandedAnchor, FreeElimination, Precision, SpectrumBounds, centers};
 use super::expansion::Expansion;
 use crate::search::complete::dyadic::short_near;
 use mceip_check::certificate::Anchor;
@@ -24,7 +24,11 @@ pub(crate) fn exchanged(pencil: &Pencil) -> Result<Pencil, ModelError> {
 }
 
 /// The reversed anchor of a pencil; `None` unless B_ff is positive definite.
-pub(crate) fn beyond(pencil: &Pencil, bounds: SpectrumBounds) -> Option<ReversedAnchor> {
+pub(crate) fn beyond(
+    pencil: &Pencil,
+    bounds: SpectrumBounds,
+    precision: Precision,
+) -> Option<ReversedAnchor> {
     if bounds.tau <= 0.0 {
         return None;
     }
@@ -37,7 +41,7 @@ pub(crate) fn beyond(pencil: &Pencil, bounds: SpectrumBounds) -> Option<Reversed
     let center = only_first.first()?;
     let from = short_near(1.0 / center.end, 0.05 / center.end)?;
 
-    let expanded = elimination.expand(&center.at, COARSE)?;
+    let expanded = elimination.expand(&center.at, precision)?;
     Some(ReversedAnchor {
         expanded: ExpandedAnchor {
             anchor: Anchor {
