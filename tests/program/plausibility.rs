@@ -283,15 +283,23 @@ const NO_REACTION: &str = "4 more: no reaction is given (reaction_tangential, re
 #[test]
 fn each_fault_is_named() {
     let model = Model::new();
-    let mut without_reactions = String::from("tangential,normal,normal_direction,state\n");
-    for node in &model.block.contact {
-        writeln!(without_reactions, "{},{},-1,slip-", 2 * node, 2 * node + 1).unwrap();
-    }
+    let without_reactions = |normal_direction: i8, state: &str| {
+        let mut table = String::from("tangential,normal,normal_direction,state\n");
+        for node in &model.block.contact {
+            let dofs = [2 * node, 2 * node + 1]
+                .map(|dof| dof.to_string())
+                .join(",");
+            writeln!(table, "{dofs},{normal_direction},{state}").unwrap();
+        }
+        table
+    };
     for (name, text) in [
         ("short.mtx", matrix_market(&model.block.stiffness, 4)),
         ("from-1.csv", model.contacts(1, PRESSURE)),
         ("later.csv", model.contacts(0, 1.25 * PRESSURE)),
-        ("bare.csv", without_reactions),
+        ("bare.csv", without_reactions(-1, "slip-")),
+        ("turned.csv", without_reactions(-1, "slip+")),
+        ("inward.csv", without_reactions(1, "slip-")),
     ] {
         model.folder.write(name, &text);
     }
@@ -313,12 +321,63 @@ fn each_fault_is_named() {
             &["differ from K u by 2e-1 of the largest"],
         ),
         (["K.mtx", "K.mtx", "contacts.csv"], "", &["K and M are one"]),
-        // Without reactions nothing shows a wrong state, with displacements or without.
-        (["K.mtx", "M.mtx", "bare.csv"], "u.txt", &[NO_REACTION]),
+        // Without reactions displacements show a wrong state, and without those nothing does.
         (["K.mtx", "M.mtx", "bare.csv"], "", &[NO_REACTION]),
+        (["K.mtx", "M.mtx", "bare.csv"], "u.txt", &[]),
+        (
+            ["K.mtx", "M.mtx", "turned.csv"],
+            "u.txt",
+            &["expected r_T against the impending slip (slip+ and slip- exchanged?), got from K u"],
+        ),
+        (
+            ["K.mtx", "M.mtx", "inward.csv"],
+            "u.txt",
+            &["expected r_N < 0, which presses"],
+        ),
     ] {
         warns_of(&model.convert(files, displacements), warnings);
     }
+}
+
+/// A chain of springs that no support holds, in place of the K of the block.
+#[test]
+fn a_body_without_supports_is_named() {
+    let model = Model::new();
+    let order = model.block.stiffness.order;
+    let mut entries = Vec::new();
+    for i in 1..order {
+        entries.extend([
+            (i - 1, i - 1, 1.0),
+            (i, i, 1.0),
+            (i, i - 1, -1.0),
+            (i - 1, i, -1.0),
+        ]);
+    }
+    let mut sums = vec![vec![0.0; order]; order];
+    for (i, j, value) in entries {
+        sums[i][j] += value;
+    }
+    let mut chain = Vec::new();
+    for (i, row) in sums.iter().enumerate() {
+        for (j, value) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            chain.push((i, j, *value));
+        }
+    }
+    let chain = DoubleMatrix {
+        order,
+        entries: chain,
+    };
+    model.folder.write("chain.mtx", &matrix_market(&chain, 17));
+
+    let is_named = |contacts: &str| {
+        let text = model.convert(["chain.mtx", "M.mtx", contacts], "");
+        text.contains("WARNING: every row of K sums to zero, as for a body without supports")
+    };
+    assert!(is_named("contacts.csv"));
+
+    let sticks = model.contacts(0, PRESSURE).replacen("slip-", "stick", 1);
+    model.folder.write("sticks.csv", &sticks);
+    assert!(!is_named("sticks.csv"));
 }
 
 /// A node on its friction cone is about to slip, whatever its state in the table.

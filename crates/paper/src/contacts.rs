@@ -38,6 +38,19 @@ use mceip_model::{ContactCandidate, ContactState, Curvature, Particle, Reaction}
 use num_traits::{One, Signed, Zero};
 use std::fmt::{self, Display, Formatter};
 
+/// The column that the beginning of a name stands for, as a clause.
+fn meant_column(got: &str) -> String {
+    const LEAST: usize = 4;
+
+    let beginning: String = got.chars().take(LEAST).collect();
+    let names = Column::ALL.map(Column::name).into_iter();
+    let mut meant = names.filter(|name| beginning.len() == LEAST && name.starts_with(&beginning));
+    match meant.next() {
+        Some(name) if name != got => format!(" ({name}?)"),
+        _ => String::new(),
+    }
+}
+
 /// Why a table of contacts is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -52,8 +65,9 @@ pub enum ContactsError {
     },
     /// A column that means nothing, or one named twice.
     #[error(
-        "contacts: expected each of {} at most once in the header, got {got:?}",
-        Column::ALL.map(Column::name).join(", ")
+        "contacts: expected columns in the first line, each of {} at most once, got {got:?}{}",
+        Column::ALL.map(Column::name).join(", "),
+        meant_column(got)
     )]
     Column {
         /// The name.

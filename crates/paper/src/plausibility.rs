@@ -33,7 +33,7 @@ use crate::tolerance::{
     USUAL_FREQUENCIES, USUAL_FRICTION,
 };
 use mceip_exact::{Sparse, from_f64, to_f64, upper_decimal};
-use mceip_model::{ContactState, Coordinates, Particle, System};
+use mceip_model::{ContactState, Coordinates, Direction, Particle, System};
 use std::collections::HashMap;
 
 /// What the figures are made of.
@@ -78,7 +78,7 @@ impl Plausibility {
 
         let stiffness = in_doubles(input.system.stiffness());
         found.figure("K", range_of_diagonal(&stiffness));
-        found.look_at_rows(&stiffness);
+        found.look_at_rows(input.system, &stiffness);
         found.look_at_supports(input);
 
         if input.system.mass() == Some(input.system.stiffness()) {
@@ -106,9 +106,9 @@ impl Plausibility {
             found.look_at_friction(to_f64(friction));
         }
         found.look_at_cones(input);
-        let are_given = found.look_at_missing_reactions(input);
-        if let Some(displacements) = input.displacements {
-            let forces = stiffness.times(displacements);
+        let forces = input.displacements.map(|u| stiffness.times(u));
+        let are_given = found.look_at_missing_reactions(input, forces.as_deref());
+        if let Some(forces) = forces {
             let are_from_one = found.look_at_reactions(input, &forces, are_given);
             if !are_from_one {
                 found.look_at_other_forces(input, &stiffness, &forces);
@@ -127,12 +127,29 @@ impl Plausibility {
 
     /// A body without supports does not resist a translation: the rows of K away from supports sum
     /// to zero, to rounding. Half of the rows are taken to be away from supports.
-    fn look_at_rows(&mut self, stiffness: &DoubleMatrix) {
-        let Some(balance) = median_balance(stiffness) else {
+    ///
+    /// Where all of them do, no support is left, and the body moves without force along an obstacle
+    /// on which nothing sticks.
+    fn look_at_rows(&mut self, system: &System, stiffness: &DoubleMatrix) {
+        let balances = balances(stiffness);
+        let Some(balance) = median(&balances) else {
             return;
         };
         if balance > NEAR_SUPPORTS {
             return;
+        }
+
+        let states = || system.particles().iter().map(|particle| particle.state);
+        let may_slide = states().any(|state| matches!(state, ContactState::Slip { .. }))
+            && !states().any(|state| state == ContactState::Stick);
+        let is_unsupported = balances.last().is_some_and(|worst| *worst <= BALANCED_ROWS);
+        if may_slide && is_unsupported {
+            self.warnings.push(
+                "every row of K sums to zero, as for a body without supports, and no particle \
+                 sticks: the body can be moved without force (leave the degrees of freedom of its \
+                 supports out of K and M)"
+                    .to_owned(),
+            );
         }
 
         self.figure(
@@ -187,7 +204,8 @@ impl Plausibility {
     /// Along a translation the entries of K cancel, row by row, and those of M add up. True if the
     /// two seem to be exchanged.
     fn look_at_signs(&mut self, stiffness: &DoubleMatrix, mass: &DoubleMatrix) -> bool {
-        let mass_cancels = median_balance(mass).is_some_and(|balance| balance <= NEAR_SUPPORTS);
+        let balance = median(&balances(mass));
+        let mass_cancels = balance.is_some_and(|balance| balance <= NEAR_SUPPORTS);
         let are_exchanged = mass_cancels && coherence(stiffness) > coherence(mass);
         if are_exchanged {
             self.warnings.push(
@@ -313,8 +331,13 @@ impl Plausibility {
     }
 
     /// The direction of impending slip is against the tangential reaction; without one nothing
-    /// shows a wrong sign. True if nothing is said of it.
-    fn look_at_missing_reactions(&mut self, input: &PlausibilityInput<'_>) -> bool {
+    /// shows a wrong sign, but `forces`, K u where displacements are given. True if no reaction is
+    /// missing that is asked for.
+    fn look_at_missing_reactions(
+        &mut self,
+        input: &PlausibilityInput<'_>,
+        forces: Option<&[f64]>,
+    ) -> bool {
         let mut without = Vec::new();
         let particles = input.system.particles().iter().zip(input.reactions);
         for (index, (particle, reaction)) in particles.enumerate() {
@@ -327,12 +350,78 @@ impl Plausibility {
             return true;
         }
 
+        if let Some(forces) = forces {
+            self.look_at_forces_of_slip(input, forces, &without);
+            return false;
+        }
+
         let particles = listed(input.system, &without);
         self.warnings.push(format!(
             "{particles}: no reaction is given (reaction_tangential, reaction_normal), so that \
              nothing shows a wrong direction of impending slip, a wrong state or a wrong angle"
         ));
         false
+    }
+
+    /// K u at particles that slip and have no reaction in the table: r_T is against the impending
+    /// slip, and r_N presses.
+    fn look_at_forces_of_slip(
+        &mut self,
+        input: &PlausibilityInput<'_>,
+        forces: &[f64],
+        without: &[usize],
+    ) {
+        let along = |direction: Direction| -> f64 {
+            let parts = direction.iter();
+            parts.map(|(dof, part)| to_f64(part) * forces[*dof]).sum()
+        };
+        let mut largest = 0.0_f64;
+        let mut of_particles = Vec::with_capacity(without.len());
+        for &index in without {
+            let particle = &input.system.particles()[index];
+            let [tangential, normal] = [particle.tangent(), particle.into_obstacle()].map(along);
+            largest = largest.max(tangential.abs()).max(normal.abs());
+            of_particles.push((index, particle.state, [tangential, normal]));
+        }
+
+        let least = REACTION_MISMATCH * largest;
+        let mut along_slip = Vec::new();
+        let mut pulled = Vec::new();
+        for (index, state, reaction) in of_particles {
+            let [tangential, normal] = reaction;
+            let is_along_slip = match state {
+                ContactState::Slip { sign } => tangential * f64::from(sign) < -least,
+                _ => false,
+            };
+            if normal > least {
+                pulled.push((index, reaction));
+            } else if is_along_slip {
+                along_slip.push((index, reaction));
+            }
+        }
+
+        let faults = [
+            (
+                along_slip,
+                "r_T against the impending slip (slip+ and slip- exchanged?)",
+            ),
+            (
+                pulled,
+                "r_N < 0, which presses (normal_direction, angle, normal_x, normal_y)",
+            ),
+        ];
+        for (particles, expected) in faults {
+            let Some((_, reaction)) = particles.first() else {
+                continue;
+            };
+            let indices: Vec<usize> = particles.iter().map(|(index, _)| *index).collect();
+            let [r_t, r_n] = reaction.map(with_five_digits);
+            let list = listed(input.system, &indices);
+            self.warnings.push(format!(
+                "{list}: expected {expected}, got from K u r_T = {r_t} along the tangent, r_N = \
+                 {r_n} along the normal into the obstacle, at the first of them"
+            ));
+        }
     }
 
     /// (1) at rest: K u is the reaction at a contact without other loads. True if the table seems
@@ -628,9 +717,9 @@ fn coherence(matrix: &DoubleMatrix) -> f64 {
     sum_of_entries(matrix).abs() / sizes
 }
 
-/// The median over the rows that are not empty of |sum of the row| over the sum of the sizes of its
-/// entries.
-fn median_balance(matrix: &DoubleMatrix) -> Option<f64> {
+/// |sum of the row| over the sum of the sizes of its entries, for the rows that are not empty,
+/// ascending.
+fn balances(matrix: &DoubleMatrix) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.order];
     let mut sizes = vec![0.0; matrix.order];
     for &(row, _, value) in &matrix.entries {
@@ -645,7 +734,11 @@ fn median_balance(matrix: &DoubleMatrix) -> Option<f64> {
         }
     }
     balances.sort_by(f64::total_cmp);
-    balances.get(balances.len() / 2).copied()
+    balances
+}
+
+fn median(ascending: &[f64]) -> Option<f64> {
+    ascending.get(ascending.len() / 2).copied()
 }
 
 /// Is the degree of freedom one of a particle in contact?
