@@ -17,9 +17,9 @@ use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
 use mceip_engine::multistart::{exact_value, is_about, same_x};
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
+use mceip_engine::signs::{BothSigns, OfSign};
 use mceip_exact::{Rational, enclosing_decimals};
-use mceip_model::reduction::reduce;
-use mceip_model::{Body, Pencil, Problem, System, Unknown};
+use mceip_model::{Body, Problem, RealWindow, System, Unknown};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `certify`.
@@ -51,9 +51,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let inputs = [args.file.as_path(), args.report.as_path()];
     let output = Output::prepare_if("out", args.out.as_deref(), &inputs)?;
-    let reduced = reduce(&problem)?;
+    let signs = BothSigns::of(&problem)?;
     let report = text("the report", &args.report)?;
-    let report = match ForeignReport::read(&report, &problem, &reduced) {
+    let report = match ForeignReport::read(&report, &problem, &signs.own().reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => {
             aside(&format!("rejected: {e}"));
@@ -72,26 +72,27 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let job = Job::begin("certifying");
-    let reflected = problem.reflected();
-    let judge_sign = |of_sign: &Problem, is_here: &dyn Fn(f64) -> bool| {
+    let mut places = Vec::with_capacity(points.len());
+    for point in &points {
+        places.push(match point {
+            Ok(reported) => Sought::of(&signs, &reported.candidate),
+            // What is no vector has no value to go by.
+            Err(_) => Sought::Own,
+        });
+    }
+    let judge_side = |side: &OfSign, elsewhere: Sought| {
         let certifying = Certifying {
-            problem: of_sign,
+            side,
             radius: radius.as_ref(),
             job: &job,
         };
-        let here = points.iter().enumerate().filter(|(_, point)| {
-            // What is no vector has no value to go by.
-            point
-                .as_ref()
-                .map_or(of_sign == &problem, |point| is_here(point.candidate.value))
-        });
-        Ok::<_, CliError>(certifying.judge(&reduce(of_sign)?.pencil, here))
+        let here = points.iter().zip(&places).enumerate();
+        let here = here.filter(|(_, (_, place))| **place != elsewhere);
+        certifying.judge(here.map(|(index, (point, _))| (index, point)))
     };
-    let mut judged = judge_sign(&problem, &|value| reflected.is_none() || value >= 0.0)?;
-    let judged_negative = match &reflected {
-        Some(reflected) => Some(judge_sign(reflected, &|value| value < 0.0)?),
-        None => None,
-    };
+    let mut judged = judge_side(signs.own(), Sought::Reflected);
+    let reflected = signs.reflected();
+    let judged_negative = reflected.map(|reflected| judge_side(reflected, Sought::Own));
     job.end();
     if let Body::System(system) = problem.body()
         && args.lifted
@@ -102,7 +103,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let mut files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
     if let (Some(reflected), Some(mut negative)) = (reflected, judged_negative) {
         let claims = std::mem::take(&mut negative.claims);
-        files = of_both_signs(&problem, files, Proved::claims(&reflected, claims)?)?;
+        files = of_both_signs(&problem, files, Proved::claims(&reflected.problem, claims)?)?;
         judged.add_negative(&problem, negative)?;
     }
     if let Some(folder) = &args.absence {
@@ -121,6 +122,45 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         code
     })
+}
+
+/// On which side of 0 a point is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sought {
+    /// Among the values of the problem itself.
+    Own,
+    /// Among those of its reflection.
+    Reflected,
+    /// On both: next to 0, and certified on neither.
+    Both,
+}
+
+impl Sought {
+    fn of(signs: &BothSigns, candidate: &Candidate) -> Sought {
+        let of = |side: &OfSign| {
+            if side.problem.is_reflected() {
+                Sought::Reflected
+            } else {
+                Sought::Own
+            }
+        };
+        let is_certified = |side: &OfSign| {
+            let certifier = Certifier::new(&side.problem, &side.reduced.pencil);
+            certifier.certify(&side.candidate(candidate)).is_ok()
+        };
+
+        let (likelier, other) = signs.near(candidate);
+        match other {
+            Some(other) if !is_certified(likelier) => {
+                if is_certified(other) {
+                    of(other)
+                } else {
+                    Sought::Both
+                }
+            }
+            _ => of(likelier),
+        }
+    }
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
@@ -169,6 +209,24 @@ impl Examination {
         let listed = proof.accepted().cover.iter().flat_map(|c| &c.solutions);
         let possible: Vec<&AcceptedClaim> = listed.filter(|one| may_be_one(one, others)).collect();
         begins_within && ends_within && possible == [own]
+    }
+
+    /// What is found of a point next to 0 on both sides: it is no solution if it is none on either.
+    fn join_negative(&mut self, problem: &Problem, below: Examination) -> Result<(), CliError> {
+        use ExaminationVerdict::{Disproved, Present, Undecided};
+
+        self.text = format!("{}; {}", self.text, below.text);
+        self.verdict = match (self.verdict, below.verdict) {
+            (Disproved, Disproved) => Disproved,
+            (Present, _) | (_, Present) => Present,
+            (Undecided, _) | (_, Undecided) => Undecided,
+        };
+        self.proof = match (self.proof.take(), below.proof) {
+            (Some(above), Some(below)) => Some(above.with_negative(problem, below)?),
+            // One side alone proves nothing of the point.
+            _ => None,
+        };
+        Ok(())
     }
 
     /// What is no vector of the problem is no solution.
@@ -225,12 +283,19 @@ impl Judged {
     /// Adds what became of the points with values below 0. What is proved of the reflected problem
     /// is said of the given one.
     fn add_negative(&mut self, problem: &Problem, negative: Judged) -> Result<(), CliError> {
-        for mut refused in negative.refused {
-            if let Some(proof) = refused.finding.proof {
-                let said = of_negative_values(problem, proof.into_certificate());
-                refused.finding.proof = Some(Proved::new(problem, said)?);
+        for below in negative.refused {
+            let mut own = self.refused.iter_mut();
+            match own.find(|above| above.index == below.index) {
+                Some(above) => above.finding.join_negative(problem, below.finding)?,
+                None => {
+                    let mut refused = below;
+                    if let Some(proof) = refused.finding.proof {
+                        let said = of_negative_values(problem, proof.into_certificate());
+                        refused.finding.proof = Some(Proved::new(problem, said)?);
+                    }
+                    self.refused.push(refused);
+                }
             }
-            self.refused.push(refused);
         }
         self.refused.sort_by_key(|refused| refused.index);
         Ok(())
@@ -348,7 +413,7 @@ fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
 
 /// What is needed to judge a point.
 struct Certifying<'a> {
-    problem: &'a Problem,
+    side: &'a OfSign,
     /// How far from its value absence is to be proved, if the user has said it.
     radius: Option<&'a Rational>,
     job: &'a Job,
@@ -358,10 +423,9 @@ impl Certifying<'_> {
     /// Certifies one after the other and says what becomes of each, until interrupted.
     fn judge<'p>(
         &self,
-        pencil: &Pencil,
         points: impl Iterator<Item = (usize, &'p Result<Reported, BadPoint>)>,
     ) -> Judged {
-        let certifier = Certifier::new(self.problem, pencil);
+        let certifier = Certifier::new(&self.side.problem, &self.side.reduced.pencil);
         let mut judged = Judged::default();
         for (index, point) in points {
             if self.job.is_cancelled() {
@@ -383,11 +447,7 @@ impl Certifying<'_> {
             };
 
             let value = reported.candidate.value;
-            let candidate = if self.problem.is_reflected() {
-                &reported.candidate.reflected()
-            } else {
-                &reported.candidate
-            };
+            let candidate = &self.side.candidate(&reported.candidate);
             match certifier.certify_with_verdict(candidate) {
                 Ok((claim, _)) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
                     self.job
@@ -419,7 +479,7 @@ impl Certifying<'_> {
 
     /// Searches for all solutions near a point that was not certified for this reason.
     fn look_nearby(&self, candidate: &Candidate, reason: &NotCertified) -> Examination {
-        let problem = self.problem;
+        let problem = &self.side.problem;
         self.job
             .say("no certificate: looking for a proof that there is no solution nearby");
         let found = self
@@ -447,7 +507,7 @@ impl Certifying<'_> {
                 text: format!(
                     "REFUSED: {} there is only {} (proved), with another x: {reason}",
                     interval(problem, &proved),
-                    solutions_text(&proved.cover)
+                    solutions_text(problem, &proved.cover)
                 ),
                 proof: Some(proved.proved),
                 solution: None,
@@ -489,9 +549,13 @@ impl Certifying<'_> {
 }
 
 /// "[1.5, 1.6] with slip [0, 1]", with commas between several.
-fn solutions_text(cover: &AcceptedCover) -> String {
+fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String {
     let mut solutions = Vec::new();
     for solution in &cover.solutions {
+        let mut solution = solution.clone();
+        if problem.is_reflected() {
+            solution = solution.reflected();
+        }
         let (lo, hi) = enclosing_decimals(&solution.value, 15);
         let support = &solution.support;
         solutions.push(format!("[{lo}, {hi}] with slip {support:?}"));
@@ -502,7 +566,12 @@ fn solutions_text(cover: &AcceptedCover) -> String {
 
 /// "with lambda2 in [a, b]".
 fn interval(problem: &Problem, proved: &Completed) -> String {
-    let word = problem.word();
+    let word = problem.unknown().word();
     let window = &proved.proved.certificate().window;
+    let window = if problem.is_reflected() {
+        RealWindow::reflection(window)
+    } else {
+        window.into()
+    };
     format!("with {word} in {}", window_text(window))
 }

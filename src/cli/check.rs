@@ -27,12 +27,14 @@ use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict,
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::lean::{HasAnchors, LEAN_FORMAT, elaborate, skeleton};
 use mceip_engine::run::Progress;
+use mceip_engine::signs::BothSigns;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
 use mceip_exact::{enclosing_decimals, parse, to_f64};
-use mceip_model::file::{LOADS_FORMAT, require_format};
-use mceip_model::reduction::reduce;
-use mceip_model::{LoadedBody, Problem, RealWindow, Unknown};
+use mceip_model::file::{LOADS_FORMAT, Object, from_json, require_format};
+use mceip_model::{LoadedBody, ModelError, Problem, RealWindow, Unknown};
 use num_traits::Zero;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
@@ -87,6 +89,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return foreign(args, &problem, &source, tolerance.unwrap_or(AGREEMENT));
     }
 
+    refuse_unnamed_report(&source).map_err(|e| CliError::other_file(&args.certificate, e))?;
+
     let is_lean = require_format(&source, LEAN_FORMAT).is_ok();
     let source = if is_lean {
         skeleton(&source).map_err(|e| CliError::other_file(&args.certificate, e))?
@@ -130,6 +134,33 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             Err(rejected) => say_rejected(&rejected),
         },
     )
+}
+
+/// Refuses a list of solutions whose format is missing or misspelt as what it is.
+fn refuse_unnamed_report(source: &str) -> Result<(), ModelError> {
+    #[derive(Deserialize)]
+    struct SolutionsField {
+        solutions: Option<IgnoredAny>,
+    }
+
+    let field: Result<Object<SolutionsField>, ModelError> = from_json(source);
+    let lists_solutions = field.is_ok_and(|Object(field)| field.solutions.is_some());
+    if !lists_solutions {
+        return Ok(());
+    }
+
+    let certificates = [
+        CERTIFICATE_FORMAT,
+        CRITICAL_FORMAT,
+        PRESENCE_FORMAT,
+        STABILITY_FORMAT,
+        LEAN_FORMAT,
+    ];
+    let mut certificates = certificates.into_iter();
+    if certificates.any(|format| require_format(source, format).is_ok()) {
+        return Ok(());
+    }
+    require_format(source, SOLUTIONS_FORMAT)
 }
 
 /// A certificate with anchors, as a file has it or as a lean file leaves it to be made anew.
@@ -452,12 +483,8 @@ fn smaller_text(certified: &[RealWindow], problem: &Problem) -> String {
 
 /// One line per solution of a foreign report; the exit code is that of the worst.
 fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Result<u8, CliError> {
-    let reduced = reduce(problem)?;
-    let reflected = match problem.reflected() {
-        Some(reflected) => Some((reduce(&reflected)?, reflected)),
-        None => None,
-    };
-    let report = match ForeignReport::read(source, problem, &reduced) {
+    let signs = BothSigns::of(problem)?;
+    let report = match ForeignReport::read(source, problem, &signs.own().reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => {
             print(&format!("REJECTED: {e}\n"))?;
@@ -474,13 +501,7 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         job.say(Progress::of("judging", k, report.solutions.len()));
         let line = match reported {
             Ok(reported) => {
-                let (problem, reduced, reported) = match &reflected {
-                    Some((reduced, reflected)) if reported.candidate.value < 0.0 => {
-                        (reflected, reduced, &reported.reflected())
-                    }
-                    _ => (problem, &reduced, reported),
-                };
-                let verdict = judge(problem, reduced, reported, tolerance, &mut effort);
+                let verdict = judge(&signs, reported, tolerance, &mut effort);
                 is_undecided |= matches!(verdict, ForeignVerdict::Undecided { .. });
                 is_rejected |= matches!(
                     verdict,

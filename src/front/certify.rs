@@ -3,14 +3,14 @@
 use super::error::Error;
 use super::problem::Problem;
 use super::solution::Solution;
-use mceip_check::Proved;
-use mceip_check::certificate::Certificate;
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{AcceptedClaim, Proved};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate, of_negative_values};
 use mceip_engine::lean::elaborate_file;
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
-use mceip_model::reduction::reduce;
+use mceip_engine::signs::{BothSigns, OfSign};
 
 /// A solution with its own certificate.
 #[derive(Debug, Clone)]
@@ -46,28 +46,22 @@ impl Problem {
     /// ```
     pub fn certify(&self, value: f64, x: &[f64]) -> Result<Certified, Error> {
         let problem = self.as_model();
-        let reflected = problem.reflected().filter(|_| value < 0.0);
-        let of_sign = reflected.as_ref().unwrap_or(problem);
-        let reduced = reduce(of_sign)?;
-        let certifier = Certifier::new(of_sign, &reduced.pencil);
-        let mut candidate = Candidate::given(problem, value, x.to_vec());
-        if reflected.is_some() {
-            candidate = candidate.reflected();
-        }
-        let (claim, mut proved) = certifier.certify_with_verdict(&candidate)?;
+        let given = Candidate::given(problem, value, x.to_vec());
+        let signs = BothSigns::of(problem)?;
+        let on = |side: &OfSign| {
+            let certifier = Certifier::new(&side.problem, &side.reduced.pencil);
+            certifier.certify_with_verdict(&side.candidate(&given))
+        };
 
-        let mut listed = Listed::of_claim(of_sign, &reduced, &claim);
-        let mut certificate = certificate(of_sign, vec![claim]);
-        if reflected.is_some() {
-            proved = proved.reflected();
-            listed = listed.reflected();
-            certificate = of_negative_values(problem, certificate);
+        let (likelier, other) = signs.near(&given);
+        let reason = match on(likelier) {
+            Ok((claim, verdict)) => return certified(problem, likelier, claim, verdict),
+            Err(reason) => reason,
+        };
+        match other.map(|other| (other, on(other))) {
+            Some((other, Ok((claim, verdict)))) => certified(problem, other, claim, verdict),
+            _ => Err(reason.into()),
         }
-
-        Ok(Certified {
-            solution: Solution::new(problem.unknown(), &proved, &listed),
-            certificate: Proved::new(problem, certificate)?,
-        })
     }
 
     /// The full text of a lean certificate (`mceip-lean/1`) about this problem: the matrices that
@@ -78,4 +72,25 @@ impl Problem {
     pub fn elaborate(&self, lean: &str) -> Result<String, Error> {
         Ok(elaborate_file(self.as_model(), lean, &Watch::nobody())?)
     }
+}
+
+/// A claim that the checker has accepted of a problem, or of its reflection, as one of the problem.
+fn certified(
+    problem: &mceip_model::Problem,
+    side: &OfSign,
+    claim: Claim,
+    mut verdict: AcceptedClaim,
+) -> Result<Certified, Error> {
+    let mut listed = Listed::of_claim(&side.problem, &side.reduced, &claim);
+    let mut certificate = certificate(&side.problem, vec![claim]);
+    if side.problem.is_reflected() {
+        verdict = verdict.reflected();
+        listed = listed.reflected();
+        certificate = of_negative_values(problem, certificate);
+    }
+
+    Ok(Certified {
+        solution: Solution::new(problem.unknown(), &verdict, &listed),
+        certificate: Proved::new(problem, certificate)?,
+    })
 }

@@ -11,6 +11,7 @@ use crate::common::{decimal, exits, exits_with_json, read, refused, repository, 
 use crate::program::Folder;
 use mceip_engine::foreign::{Effort, ForeignReport, ForeignVerdict, judge};
 use mceip_engine::run::Watch;
+use mceip_engine::signs::BothSigns;
 use mceip_model::file::read_problem;
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups};
 use rayon::prelude::*;
@@ -288,8 +289,8 @@ fn wrong_answers_of_a_case(case: &Case) -> Vec<Bug> {
 
 fn first_solution_is_refuted(case: &Case, bug: Bug, report: &ForeignReport) {
     let solution = report.solutions[0].as_ref().unwrap();
-    let mut effort = Effort::default();
-    let verdict = judge(&case.problem, &case.reduced, solution, 1e-6, &mut effort);
+    let signs = BothSigns::of(&case.problem).unwrap();
+    let verdict = judge(&signs, solution, 1e-6, &mut Effort::default());
 
     // (1, 0) at t = 1 + 1e-5 is wrong, and as near to the solution (1, 1e-5) at t = 1 as its
     // rounding would be.

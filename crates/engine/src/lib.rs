@@ -40,4 +40,5 @@ pub mod reduction;
 pub mod report;
 pub mod run;
 pub mod search;
+pub mod signs;
 pub mod tolerance;

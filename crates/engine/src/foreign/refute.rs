@@ -65,7 +65,7 @@ impl Effort {
         let Some(left) = self.left.checked_sub(cost) else {
             return Err(format!(
                 "absence is proved with at most {} products of words more in this report, {cost} \
-                 were needed (see mceip complete)",
+                 were needed (`mceip certify` goes further)",
                 self.left
             ));
         };
@@ -116,13 +116,14 @@ pub(super) fn refute(
     let Ok(near) = Window::new(lo.clone(), Some(hi.clone())) else {
         return Ok(EnumerationAnswer::Refuted(Refutation::OutsideWindow {
             value: candidate.value,
-            window: problem.window().to_string(),
+            window: problem.real_window(),
         }));
     };
     let slip = reduced.pencil.slip();
     if slip.len() > REFUTE_SLIP || reduced.pencil.free().len() > MAX_FREE {
         return Err(format!(
-            "absence is proved for at most {REFUTE_SLIP} slip and {MAX_FREE} free variables"
+            "`mceip check` proves absence for at most {REFUTE_SLIP} slip and {MAX_FREE} free \
+             variables (`mceip certify` for more)"
         ));
     }
 
@@ -147,16 +148,12 @@ pub(super) fn refute(
         };
     }
     let others = found.others(candidate, &normalised)?;
-    let others_text = match others {
-        0 => "there is none at all".to_string(),
-        n => format!("{n} found with another x"),
-    };
     Ok(EnumerationAnswer::Refuted(Refutation::NothingNear {
         lo: to_f64(&lo),
         hi: to_f64(&hi),
         x_radius: X_RADIUS,
         supports,
-        others: others_text,
+        others,
     }))
 }
 

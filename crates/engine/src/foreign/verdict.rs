@@ -9,14 +9,17 @@
 use super::agreement::{Agreement, agreement};
 use super::refute::{Effort, EnumerationAnswer, refute};
 use super::report::Reported;
-use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate};
+use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate, scaled};
 use crate::certify::{Certifier, certify};
 use crate::multistart::{exact_value, support};
+use crate::report::negated;
+use crate::signs::{BothSigns, OfSign};
+use crate::tolerance::{DISTANCE_ROUNDING, X_RADIUS};
 use mceip_check::certificate::{Claim, EnclosedSolution};
 use mceip_check::with_short_numbers;
 use mceip_exact::{Algebraic, Interval, Poly};
 use mceip_exact::{enclosing_decimals, parse, to_decimal, upper_decimal};
-use mceip_model::{Problem, Reduced};
+use mceip_model::{Problem, RealWindow, Reduced};
 
 /// Components of a proven x that are printed.
 const COMPONENTS_SHOWN: usize = 8;
@@ -54,6 +57,9 @@ pub enum ForeignVerdict {
 pub struct Confirmed {
     /// The claim; `check` accepts it.
     pub claim: Claim,
+    /// Is it one of the reflected problem, whose value is that of the solution with its sign
+    /// changed?
+    pub is_reflected: bool,
     /// How near the report is to it.
     pub agreement: Agreement,
 }
@@ -65,18 +71,27 @@ pub enum Refutation {
     /// The zero vector.
     #[error("E12: expected x != 0, got the zero vector")]
     ZeroX,
+    /// A component that no solution has, by more than rounding.
+    #[error("x[{index}] = {} < 0 at largest |x_i| = 1, and every solution has x[{index}] >= 0", plain_or_power(*value))]
+    NegativeX {
+        /// The variable.
+        index: usize,
+        /// The component, of x with the largest |x_i| = 1.
+        value: f64,
+    },
     /// The value lies outside the window, by more than rounding.
     #[error("value {} lies outside the window {window}", plain_or_power(*value))]
     OutsideWindow {
         /// The value reported.
         value: f64,
         /// The window.
-        window: String,
+        window: RealWindow,
     },
     /// The complete answer near the value holds nothing like it.
     #[error(
         "no solution with value in [{lo:?}, {hi:?}] has x within {x_radius:e} of this one (all \
-         {supports} supports examined exactly, {others})"
+         {supports} supports examined exactly, {})",
+        others_text(*others)
     )]
     NothingNear {
         /// Lower end of the values examined.
@@ -87,24 +102,133 @@ pub enum Refutation {
         x_radius: f64,
         /// Supports examined.
         supports: u64,
-        /// What there is instead.
-        others: String,
+        /// How many solutions there are, with another x.
+        others: usize,
     },
+}
+
+impl Refutation {
+    /// Of the reflected problem, as one of the problem.
+    fn reflected(self, window: RealWindow) -> Refutation {
+        match self {
+            Refutation::ZeroX | Refutation::NegativeX { .. } => self,
+            Refutation::OutsideWindow { value, .. } => Refutation::OutsideWindow {
+                value: -value,
+                window,
+            },
+            Refutation::NothingNear {
+                lo,
+                hi,
+                x_radius,
+                supports,
+                others,
+            } => Refutation::NothingNear {
+                lo: -hi,
+                hi: 0.0 - lo,
+                x_radius,
+                supports,
+                others,
+            },
+        }
+    }
+
+    /// Of values on both sides of 0.
+    fn and(self, other: Refutation) -> Refutation {
+        match (self, other) {
+            (
+                Refutation::NothingNear {
+                    lo,
+                    hi,
+                    x_radius,
+                    supports,
+                    others,
+                },
+                Refutation::NothingNear {
+                    lo: other_lo,
+                    hi: other_hi,
+                    others: more,
+                    ..
+                },
+            ) => Refutation::NothingNear {
+                lo: lo.min(other_lo),
+                hi: hi.max(other_hi),
+                x_radius,
+                supports,
+                others: others + more,
+            },
+            (near @ Refutation::NothingNear { .. }, _) => near,
+            (_, other) => other,
+        }
+    }
+}
+
+fn others_text(others: usize) -> String {
+    match others {
+        0 => "there is none at all".to_string(),
+        n => format!("{n} found with another x"),
+    }
 }
 
 /// Proves a reported solution, or refutes it, within the radii of `tolerance.rs` (value 1e-4 of 1 +
 /// |value|, x 1e-3). One that is proved is accepted if it agrees with the proven one to
 /// `tolerance`, see [`Agreement`]. Absence near points is proved as far as `effort` goes.
 pub fn judge(
-    problem: &Problem,
-    reduced: &Reduced,
+    signs: &BothSigns,
     reported: &Reported,
     tolerance: f64,
     effort: &mut Effort,
 ) -> ForeignVerdict {
+    let mut judge_on = |side: &OfSign| {
+        let here = Reported {
+            candidate: side.candidate(&reported.candidate),
+            off: reported.off,
+        };
+        match judge_on_side(side, &here, tolerance, effort) {
+            ForeignVerdict::Rejected(refutation) if side.problem.is_reflected() => {
+                let window = signs.own().problem.real_window();
+                ForeignVerdict::Rejected(refutation.reflected(window))
+            }
+            verdict => verdict,
+        }
+    };
+
+    let (likelier, other) = signs.near(&reported.candidate);
+    let verdict = judge_on(likelier);
+    match other {
+        Some(other) if !matches!(verdict, ForeignVerdict::Accepted(_)) => {
+            together(verdict, judge_on(other))
+        }
+        _ => verdict,
+    }
+}
+
+/// What two verdicts, of the two sides of 0, say together: what exists on one of them exists, and
+/// only what neither has is refuted.
+fn together(first: ForeignVerdict, second: ForeignVerdict) -> ForeignVerdict {
+    use ForeignVerdict::{Accepted, Inaccurate, Rejected, Undecided};
+    match (first, second) {
+        (Rejected(here), Rejected(there)) => Rejected(here.and(there)),
+        (found @ Accepted(_), _) | (_, found @ Accepted(_)) => found,
+        (found @ Inaccurate { .. }, _) | (_, found @ Inaccurate { .. }) => found,
+        (open @ Undecided { .. }, _) | (_, open @ Undecided { .. }) => open,
+    }
+}
+
+/// The verdict on the values that a problem or its reflection has.
+fn judge_on_side(
+    side: &OfSign,
+    reported: &Reported,
+    tolerance: f64,
+    effort: &mut Effort,
+) -> ForeignVerdict {
+    let OfSign { problem, reduced } = side;
     let candidate = &reported.candidate;
     if candidate.x.iter().all(|v| *v == 0.0) {
         return ForeignVerdict::Rejected(Refutation::ZeroX);
+    }
+
+    if let Some(refutation) = negative_component(reduced, candidate) {
+        return ForeignVerdict::Rejected(refutation);
     }
 
     let proved = match prove(problem, reduced, reported, candidate) {
@@ -135,7 +259,11 @@ pub fn judge(
             if let Some(agreement) = agreement(problem, reduced, &claim, reported)
                 && agreement.is_within(tolerance)
             {
-                return ForeignVerdict::Accepted(Box::new(Confirmed { claim, agreement }));
+                return ForeignVerdict::Accepted(Box::new(Confirmed {
+                    claim,
+                    is_reflected: problem.is_reflected(),
+                    agreement,
+                }));
             }
         }
     }
@@ -144,6 +272,17 @@ pub fn judge(
         proved: Box::new(proved),
         tolerance,
     }
+}
+
+/// A component x_i < 0 of a complementarity variable that is further from every x_i >= 0 than
+/// [`X_RADIUS`], both x at largest |x_i| = 1.
+fn negative_component(reduced: &Reduced, candidate: &Candidate) -> Option<Refutation> {
+    let x = scaled(&candidate.x)?;
+    let slip = reduced.pencil.slip().into_iter();
+    let index = slip.min_by(|i, j| x[*i].total_cmp(&x[*j]))?;
+    let value = x[index];
+    let is_beyond_rounding = value < -(X_RADIUS + DISTANCE_ROUNDING);
+    is_beyond_rounding.then_some(Refutation::NegativeX { index, value })
 }
 
 /// The verdict where a proof of presence and one of absence failed for these reasons.
@@ -177,7 +316,11 @@ fn prove(
     let claim = certify(problem, &reduced.pencil, candidate).map_err(|e| e.to_string())?;
     let agreement = agreement(problem, reduced, &claim, reported);
     let agreement = agreement.ok_or("its numbers are beyond the range of doubles")?;
-    Ok(Confirmed { claim, agreement })
+    Ok(Confirmed {
+        claim,
+        is_reflected: problem.is_reflected(),
+        agreement,
+    })
 }
 
 /// The candidate with components up to `tolerance` of the largest set to zero.
@@ -204,11 +347,11 @@ impl ForeignVerdict {
     }
 
     fn full_line(&self, problem: &Problem, given: f64) -> String {
-        let word = problem.word();
+        let word = problem.unknown().word();
         let value = plain_or_power(given);
         match self {
             ForeignVerdict::Accepted(proved) => {
-                let exists = existing(problem, &proved.claim);
+                let exists = existing(problem, proved);
                 let value = digits_text(proved.agreement.value);
                 let x = digits_text(proved.agreement.worst.error);
                 format!("ACCEPTED: {exists}; proved; its value agrees to {value}, x to {x}")
@@ -237,10 +380,13 @@ fn plain_or_power(value: f64) -> String {
 }
 
 /// `lambda2 = 2 exists with support {0, 1}`.
-fn existing(problem: &Problem, claim: &Claim) -> String {
-    let word = problem.word();
-    let value = value_text(claim);
-    let indices: Vec<String> = support(claim).iter().map(ToString::to_string).collect();
+fn existing(problem: &Problem, proved: &Confirmed) -> String {
+    let word = problem.unknown().word();
+    let value = value_text(proved);
+    let indices: Vec<String> = support(&proved.claim)
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     let support = indices.join(", ");
     format!("{word} {value} exists with support {{{support}}}")
 }
@@ -248,9 +394,9 @@ fn existing(problem: &Problem, claim: &Claim) -> String {
 /// The verdict on a report that differs too much from the proven solution: both values, the proven
 /// x, the worst component.
 fn inaccurate_text(problem: &Problem, given: &str, proved: &Confirmed, tolerance: f64) -> String {
-    let word = problem.word();
+    let word = problem.unknown().word();
     let agreement = &proved.agreement;
-    let exists = existing(problem, &proved.claim);
+    let exists = existing(problem, proved);
     let x = shown_components(&agreement.proven);
 
     let worst = &agreement.worst;
@@ -299,9 +445,20 @@ fn digits_text(error: f64) -> String {
 }
 
 /// `= 2`, `= 0.41421356237309505...` or `in [lo, hi]`.
-fn value_text(claim: &Claim) -> String {
+fn value_text(proved: &Confirmed) -> String {
+    let Confirmed {
+        claim,
+        is_reflected,
+        ..
+    } = proved;
     if let Some(value) = exact_value(claim) {
-        return exact_value_text(value);
+        let (decimal, dots) = exact_value_text(value);
+        let decimal = if *is_reflected {
+            negated(&decimal)
+        } else {
+            decimal
+        };
+        return format!("= {decimal}{dots}");
     }
 
     let interval = match claim {
@@ -310,7 +467,10 @@ fn value_text(claim: &Claim) -> String {
     };
     match interval {
         Some(interval) => {
-            let (lo, hi) = enclosing_decimals(&interval, VALUE_DIGITS);
+            let (mut lo, mut hi) = enclosing_decimals(&interval, VALUE_DIGITS);
+            if *is_reflected {
+                (lo, hi) = (negated(&hi), negated(&lo));
+            }
             format!("in [{lo}, {hi}]")
         }
         // Claims that are checked have a value.
@@ -318,8 +478,8 @@ fn value_text(claim: &Claim) -> String {
     }
 }
 
-/// A rational in full where it is short, else its first digits and dots.
-fn exact_value_text(mut value: Algebraic) -> String {
+/// A rational in full where it is short, else its first digits, and dots.
+fn exact_value_text(mut value: Algebraic) -> (String, &'static str) {
     value.try_rational();
     let t = Poly::from_ints(&[0, 1]);
     let decimal = to_decimal(&mut value, &t, VALUE_DIGITS);
@@ -327,7 +487,7 @@ fn exact_value_text(mut value: Algebraic) -> String {
     let parsed = parse(&decimal).ok();
     let is_exact = value.as_rational().is_some() && parsed.as_ref() == value.as_rational();
     let dots = if is_exact { "" } else { "..." };
-    format!("= {decimal}{dots}")
+    (decimal, dots)
 }
 
 /// The interval of the value of an enclosed claim.

@@ -232,7 +232,7 @@ impl Listed {
 }
 
 /// The decimal of -t, where `decimal` is one of t.
-fn negated(decimal: &str) -> String {
+pub(crate) fn negated(decimal: &str) -> String {
     match decimal.strip_prefix('-') {
         Some(positive) => positive.into(),
         None if decimal == "0" => decimal.into(),

@@ -10,8 +10,8 @@ mod table;
 
 pub use digits::{fixed_decimals, six_digits};
 pub(crate) use digits::{short, short_is_plain};
-pub(crate) use listed::row_times;
 pub use listed::{Listed, ListedCone};
+pub(crate) use listed::{negated, row_times};
 pub use solutions::{Claimed, Report, solutions_json, solutions_text};
 pub(crate) use solutions::{coefficients, region_json};
 pub use table::Table;
