@@ -192,11 +192,12 @@ fn band(chart: &Chart, range: &PresenceRange) -> Element {
     } else {
         "above"
     };
-    let tip = format!(
-        "mu {begin} {} to {to}: {}, {standing}",
-        label(range.from),
-        range.presence.word()
-    );
+    let word = range.presence.word();
+    let words = match range.presence {
+        Presence::Undecided => word.to_owned(),
+        _ => format!("{word}, {standing}"),
+    };
+    let tip = format!("mu {begin} {} to {to}: {words}", label(range.from));
 
     shaded(area, range.presence, range.is_proved)
         .with(
@@ -304,7 +305,9 @@ fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
     }
 
     for (is_proved, words) in [(true, "proved"), (false, "at samples only")] {
-        let occurs = presence.ranges.iter().any(|r| r.is_proved == is_proved);
+        let is_it =
+            |r: &PresenceRange| r.is_proved == is_proved && r.presence != Presence::Undecided;
+        let occurs = presence.ranges.iter().any(is_it);
         if occurs {
             let middle = baseline - 4.5;
             let sign = line((left, middle), (left + SIGN, middle), "#000", 1.6);

@@ -20,6 +20,7 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     let candidates = followed.loads().candidates();
     let table = table_of(path, &followed.loads().step_names(), candidates);
     let end = end_text(path, candidates);
+    let headline = not_carried_text(followed);
 
     let doubts = doubts_text(followed);
     let verified = if path.stretches.is_empty() {
@@ -30,7 +31,7 @@ pub(crate) fn text_of(followed: &LoadPath) -> String {
     };
     let mut out = format!(
         "{name}; mu = {mu}; from and to: how much of the step's load is applied\n\
-         {warnings}{doubts}{LETTERS}\n\
+         {headline}{warnings}{doubts}{LETTERS}\n\
          {table}\n\
          {verified}{end}\n"
     );
@@ -81,6 +82,29 @@ const LOOK_AT: &str = "Look at the supports of the body, at the signs of the loa
 /// What the letters mean by which contact states are shown.
 pub(crate) const LETTERS: &str = "nodes in order: . stick, < impending slip against its tangent (S \
     = 1), > along it (S = -1), o free, z in contact without reaction";
+
+/// A line of its own where the loads cannot grow to their end, empty elsewhere.
+pub(crate) fn not_carried_text(followed: &LoadPath) -> String {
+    let path = followed.as_path();
+    let LoadingPathEnd::NoContinuation { causes, why } = &path.end else {
+        return String::new();
+    };
+    let last = path.stretches.last();
+    let Some((stretch, stop)) = last.and_then(|last| Some((last, last.stop.as_ref()?))) else {
+        return String::new();
+    };
+    if causes.is_empty() || !why.is_proved() {
+        return String::new();
+    }
+
+    let step = followed.loads().step_names()[stretch.step];
+    let amount = amount_text(stop);
+    let causes = causes_text(causes, followed.loads().candidates());
+    format!(
+        "THE LOADS ARE NOT CARRIED: at {amount} of {step} ({causes}) no quasi-static equilibrium \
+         follows\n"
+    )
+}
 
 /// Why the path ends.
 pub(crate) fn end_text(path: &LoadingPath, candidates: &[Particle]) -> String {

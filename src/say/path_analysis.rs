@@ -1,7 +1,7 @@
 //! The analysis of the states on a loading path in words, as a table and as JSON.
 
 use super::own_critical::{bracket_text, held_json};
-use super::path::amount_text;
+use super::path::{amount_text, not_carried_text};
 use super::{counted, number_text};
 use crate::front::{PathAnalysis, StateAnalysis};
 use mceip_engine::analysis::Verdict;
@@ -26,12 +26,13 @@ pub(crate) fn text_of(found: &PathAnalysis) -> String {
         " NOT EXAMINED are the stretches that are not listed."
     };
     format!(
-        "{}\n{}{missing}\n{table}\n\
+        "{}{}\n{}{missing}\n{table}\n\
          The states are those of the equilibria inside each stretch; \"proved\" rests on a \
          certificate that the checker has accepted, or on a theorem. The path is exact, but has \
          no certificate; --certificates certifies its states. Of the critical friction the \
          contact states are held: at another mu the loads may lead to others (--own-critical). \
          `path --states FOLDER` writes each state, `analyze` its certificates.\n",
+        not_carried_text(found.path()),
         verdict_text(found),
         lowest_text(found),
     )

@@ -251,6 +251,7 @@ fn presence(analysis: &Analysis) -> PresenceChart {
             .to
             .is_none_or(|to| to > range.from || stable.is_none())
     });
+    let ranges = with_gaps(ranges);
 
     let own = drawn_verdict(analysis.divergence.verdict);
     let mut samples = vec![(to_f64(&analysis.friction), own)];
@@ -270,6 +271,30 @@ fn presence(analysis: &Analysis) -> PresenceChart {
         ],
         members: analysis.members.as_ref().and_then(critical_of_members),
     }
+}
+
+/// A gap between ranges that is seen, as a share of where it ends.
+const SEEN: f64 = 0.005;
+
+/// The ranges, ascending, and between them what is not decided, where that is seen.
+fn with_gaps(mut ranges: Vec<PresenceRange>) -> Vec<PresenceRange> {
+    ranges.sort_by(|a, b| a.from.total_cmp(&b.from));
+    let mut all: Vec<PresenceRange> = Vec::with_capacity(2 * ranges.len());
+    for range in ranges {
+        let end = all.last().and_then(|last| last.to);
+        if let Some(end) = end.filter(|end| range.from - end > SEEN * range.from) {
+            all.push(PresenceRange {
+                presence: Presence::Undecided,
+                from: end,
+                is_from_included: false,
+                to: Some(range.from),
+                is_proved: false,
+            });
+        }
+        all.push(range);
+    }
+
+    all
 }
 
 /// The proved bounds of the critical mu of every member, where there are two.

@@ -41,7 +41,7 @@ pub(super) fn of_path(loads: &Loads, path: &LoadingPath) -> Vec<Named> {
             let step = names[last.step];
             places.push(DrawnEquilibrium {
                 name: format!("step-{number:02}"),
-                title: format!("The body under load: step {step}, {amount} of it"),
+                title: format!("Contact states at {amount} of step {step} (the body at rest)"),
                 stretch: last,
                 at: last.last(),
             });
@@ -71,7 +71,9 @@ pub(super) fn of_deciding(own: &OwnCritical) -> Vec<Named> {
     let amount = amount_text(&examined.equilibrium);
     let place = DrawnEquilibrium {
         name: "own-critical-body".into(),
-        title: format!("The equilibrium that decides at \u{3bc} = {mu}: {step}, {amount} of it"),
+        title: format!(
+            "Contact states that decide at \u{3bc} = {mu}: {amount} of step {step} (the body at rest)"
+        ),
         stretch,
         at: &examined.equilibrium,
     };

@@ -223,7 +223,7 @@ impl Shown<'_> {
         for (k, mode) in state.thresholds.solutions.iter().enumerate() {
             let mu = mode.value;
             let title = format!("Stretch {stretch}: mode at \u{3bc} = {mu:.6}, \u{3bb} = 0");
-            let name = format!("mode-stretch-{stretch:02}-mu-{}", k + 1);
+            let name = format!("mode-stretch-{stretch:02}-threshold-{}", k + 1);
             all.extend(drawn.mode(mode, &title, name));
         }
 
