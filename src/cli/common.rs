@@ -283,7 +283,10 @@ fn read_stdin(what: &'static str) -> Result<String, ModelError> {
 pub(super) fn parse_window(text: &str, unknown: Unknown) -> Result<RealWindow, CliError> {
     let expected = match unknown {
         Unknown::Lambda2 | Unknown::Mu => "a,b with 0 <= a <= b (b may be inf)",
-        Unknown::Eigenvalue => "a,b with a <= b and 0 <= b (a may be -inf, b inf)",
+        Unknown::Eigenvalue => {
+            "a,b with a <= b and 0 <= b (a may be -inf, b inf; for values below 0 alone, b of the \
+             problem with its sign changed)"
+        }
     };
     window_of(text, unknown).ok_or_else(|| CliError::option("window", expected, text))
 }
@@ -388,8 +391,12 @@ pub(super) fn positive(option: &'static str, given: &str) -> Result<Rational, Cl
 
 /// A coefficient of friction in the text of an option, > 0.
 pub(super) fn friction_of(option: &'static str, given: &str) -> Result<Rational, CliError> {
-    let expected = "a coefficient of friction > 0 (without friction: a very small one, as \
-                    0.000001; held contact states, `mceip analyze --friction 0`)";
+    let expected = if given.contains(',') {
+        "a coefficient of friction with a decimal point, as 0.5"
+    } else {
+        "a coefficient of friction > 0 (without friction: a very small one, as 0.000001; held \
+         contact states, `mceip analyze --friction 0`)"
+    };
     positive_number(given).ok_or_else(|| CliError::option(option, expected, given))
 }
 

@@ -157,6 +157,11 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     let job = Job::begin("cases");
     let outcomes = job.watched(|watch| run(&plan, &args.command, watch))?;
     job.end();
+    if outcomes.is_empty() && !job.is_cancelled() {
+        let got = args.only.join(" ");
+        let expected = "flags that a case has which --case and --count leave";
+        return Err(CliError::option("only", expected, &got));
+    }
 
     let summary = summarise(&outcomes);
     let head = RunHead {

@@ -28,6 +28,7 @@ mod table1;
 mod verify;
 mod wrapped;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use common::{CliError, complain, look_at_stdout};
 use mceip_check::with_short_numbers;
@@ -36,8 +37,9 @@ use std::process::ExitCode;
 
 /// Complementarity eigenproblems of frictional contact, verified exactly.
 ///
-/// Can a static equilibrium with frictional contact diverge? The program finds values of
-/// lambda^2 or mu with (A + tB) x = y, y_f = 0, 0 <= x_s _|_ y_s >= 0, and proves what it says.
+/// Can a static equilibrium with frictional contact diverge? The program finds t = lambda^2, mu or
+/// an eigenvalue of either sign with (A + tB) x = y, y_f = 0, 0 <= x_s _|_ y_s >= 0, and proves
+/// what it says.
 ///
 /// Exit codes: 0 done or accepted, 1 rejected or disagreement, 2 bad input, 3 undecided,
 /// 130 interrupted.
@@ -169,6 +171,40 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// The option or command that a misspelt one is nearest to, as a clause.
+fn meant(e: &clap::Error) -> String {
+    let kinds = [
+        ContextKind::SuggestedSubcommand,
+        ContextKind::SuggestedArg,
+        ContextKind::SuggestedValue,
+    ];
+    let suggested = kinds.into_iter().find_map(|kind| match e.get(kind)? {
+        ContextValue::String(one) => Some(one.clone()),
+        ContextValue::Strings(several) => several.first().cloned(),
+        _ => None,
+    });
+    match suggested {
+        Some(word) => format!("; is {word} meant?"),
+        None => String::new(),
+    }
+}
+
+/// The command whose usage was not kept: the words before its options and arguments.
+fn command_of(e: &clap::Error) -> String {
+    let usage = match e.get(ContextKind::Usage) {
+        Some(ContextValue::StyledStr(usage)) => usage.to_string(),
+        _ => String::new(),
+    };
+    let usage = usage.strip_prefix("Usage: ").unwrap_or(&usage);
+    let is_name = |word: &&str| {
+        word.chars()
+            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit())
+    };
+    let subcommand = usage.split_whitespace().skip(1).take_while(is_name);
+    let words: Vec<&str> = ["mceip"].into_iter().chain(subcommand).collect();
+    words.join(" ")
+}
+
 /// Help and version go to stdout; a usage error is one line on stderr, like all bad input.
 fn refuse(e: &clap::Error) -> ExitCode {
     if !e.use_stderr() {
@@ -188,6 +224,8 @@ fn refuse(e: &clap::Error) -> ExitCode {
     let message = lines.join(" ");
 
     let message = message.strip_prefix("error: ").unwrap_or(&message);
-    complain(&format!("{message} (see mceip --help)"));
+    let meant = meant(e);
+    let command = command_of(e);
+    complain(&format!("{message}{meant} (see {command} --help)"));
     ExitCode::from(CliError::EXIT)
 }

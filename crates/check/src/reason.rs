@@ -147,7 +147,7 @@ fn variant_name(debug: &str) -> String {
 #[non_exhaustive]
 pub enum Reason {
     /// The certificate was made for other matrices.
-    #[error("digest: expected {expected}, got {got:?}")]
+    #[error("digest: it is about another problem: expected {expected}, got {got:?}")]
     Digest {
         /// Digest of the problem at hand.
         expected: String,

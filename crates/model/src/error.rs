@@ -3,7 +3,7 @@
 //! Each message is one line that names the place in the file or the equation of
 //! the book (as E12; `spec/README.md` says where), what was expected there and what was found.
 
-use mceip_exact::{NumberError, Rational};
+use mceip_exact::{NumberError, Rational, to_f64};
 use num_traits::Signed;
 
 /// Where in a JSON text something was found.
@@ -61,14 +61,17 @@ pub enum ModelError {
     },
     /// No particle is in impending slip. That is an answer: there is no solution.
     #[error(
-        "expected a particle in impending slip, got none: (9) has no solution then, for any \
-         mu >= 0 and lambda^2 >= 0 (spec/zero-reaction.md, Z.2)"
+        "no particle is about to slip: there is no divergence of the form (8) then, for any \
+         mu >= 0 and lambda^2 >= 0 (spec/zero-reaction.md, Z.2); expected one at least in \
+         impending slip, for a problem to be posed"
     )]
     NothingSlips,
     /// A matrix that must be symmetric is not.
     #[error(
-        "{equation}: expected {what} symmetric, \
-         got {what}[{row}][{col}] = {upper} and {what}[{col}][{row}] = {lower}"
+        "{equation}: expected {what} symmetric, got {what}[{row}][{col}] = {} and \
+         {what}[{col}][{row}] = {} (rows and columns from 0)",
+        told_apart(upper, lower),
+        told_apart(lower, upper)
     )]
     NotSymmetric {
         /// Equation id.
@@ -164,6 +167,36 @@ pub enum ModelError {
         dof: usize,
         /// Number of degrees of freedom.
         limit: usize,
+    },
+    /// An entry lies outside its matrix.
+    #[error(
+        "{what}: expected entries within {rows} x {cols}, their rows and columns counted from 0, \
+         got one at ({row}, {col})"
+    )]
+    EntryOutside {
+        /// Name of the matrix.
+        what: &'static str,
+        /// Row of the entry.
+        row: usize,
+        /// Its column.
+        col: usize,
+        /// Rows of the matrix.
+        rows: usize,
+        /// Its columns.
+        cols: usize,
+    },
+    /// An entry is listed twice, or with its mirror in a symmetric matrix.
+    #[error(
+        "{what}: expected each entry once (of \"symmetric\": true in one triangle), got \
+         ({row}, {col}) twice"
+    )]
+    EntryTwice {
+        /// Name of the matrix.
+        what: &'static str,
+        /// Row of the entry.
+        row: usize,
+        /// Its column.
+        col: usize,
     },
     /// An index is listed twice.
     #[error("expected each {what} once, got {index} twice")]
@@ -350,14 +383,16 @@ pub enum ModelError {
     },
     /// The window of an eigenvalue problem that is empty, or that ends below 0.
     #[error(
-        "expected a window min <= max with 0 <= max, got [{min}, {max}] (for values below 0 alone \
-         take -b in place of b: they change their sign)"
+        "expected a window min <= max with 0 <= max, got [{min}, {max}]{}",
+        if *ends_below_zero { BELOW_ZERO_ALONE } else { "" }
     )]
     RealWindow {
         /// Lower end.
         min: String,
         /// Upper end.
         max: String,
+        /// Does it end below 0?
+        ends_below_zero: bool,
     },
     /// A certificate that speaks of values below 0 where there are none.
     #[error("negative: expected the unknown eigenvalue, got {unknown}")]
@@ -467,6 +502,16 @@ fn shortened(v: &Rational) -> String {
     }
 }
 
+/// A number in decimals of a double, where these tell it from another one.
+fn told_apart(number: &Rational, other: &Rational) -> String {
+    let [shown, other] = [number, other].map(to_f64);
+    if shown == other {
+        shortened(number)
+    } else {
+        shown.to_string()
+    }
+}
+
 /// What LDL' of K_ff ended with.
 fn pivot_of_ldl(pivot: Option<&Rational>) -> String {
     match pivot {
@@ -497,6 +542,10 @@ fn remedy_for(what: &str) -> &'static str {
         _ => "",
     }
 }
+
+/// What to do for a window that ends below 0.
+const BELOW_ZERO_ALONE: &str =
+    " (for values below 0 alone take -b in place of b: they change their sign)";
 
 const BESIDE_PROBLEM: &str = "`mceip check PROBLEM CERTIFICATE` reads it beside its problem";
 

@@ -823,10 +823,7 @@ mod tests {
         let ones = [0, 1, 3].map(|i| (i, i, whole(1)));
         let stiffness = Sparse::from_entries(4, 4, ones);
         let singular = System::new(stiffness, None, None, particles());
-        assert!(matches!(
-            singular,
-            Err(ModelError::NotHeld { dof: 2, .. })
-        ));
+        assert!(matches!(singular, Err(ModelError::NotHeld { dof: 2, .. })));
     }
 
     #[test]
@@ -960,10 +957,7 @@ mod tests {
     #[test]
     fn matrices_are_held_against_section_2() {
         let singular = System::new(Sparse::zeros(2, 2), None, None, vec![]);
-        assert!(matches!(
-            singular,
-            Err(ModelError::NotHeld { dof: 0, .. })
-        ));
+        assert!(matches!(singular, Err(ModelError::NotHeld { dof: 0, .. })));
 
         let indefinite_mass =
             System::new(Sparse::identity(2), Some(Sparse::zeros(2, 2)), None, vec![]);

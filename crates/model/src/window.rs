@@ -49,10 +49,7 @@ impl Window {
 /// "[0, 5/2]" or "[0, infinity)".
 impl fmt::Display for Window {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.max {
-            Some(max) => write!(f, "[{}, {max}]", self.min),
-            None => write!(f, "[{}, infinity)", self.min),
-        }
+        RealWindow::from(self).fmt(f)
     }
 }
 
@@ -61,6 +58,20 @@ impl fmt::Display for Window {
 pub struct RealWindow {
     min: Option<Rational>,
     max: Option<Rational>,
+}
+
+/// "[-1, 5/2]" or "(-infinity, infinity)".
+impl fmt::Display for RealWindow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.min {
+            Some(min) => write!(f, "[{min}, ")?,
+            None => write!(f, "(-infinity, ")?,
+        }
+        match &self.max {
+            Some(max) => write!(f, "{max}]"),
+            None => write!(f, "infinity)"),
+        }
+    }
 }
 
 impl RealWindow {
@@ -84,6 +95,7 @@ impl RealWindow {
             return Err(ModelError::RealWindow {
                 min: text(min).unwrap_or_else(|| "-infinity".into()),
                 max: text(max).unwrap_or_else(|| "infinity".into()),
+                ends_below_zero,
             });
         }
 
@@ -123,7 +135,7 @@ impl RealWindow {
     }
 
     /// The -s with s in the window.
-    fn reflection(window: &Window) -> RealWindow {
+    pub fn reflection(window: &Window) -> RealWindow {
         RealWindow {
             min: window.max.as_ref().map(|max| -max),
             max: Some(-&window.min),

@@ -220,10 +220,13 @@ fn general(
 
     let mut seen = BTreeSet::new();
     for &(i, j, _) in &entries {
-        require_below(what, i, rows)?;
-        require_below(what, j, cols)?;
+        require_within(what, [i, j], [rows, cols])?;
         if !seen.insert((i, j)) {
-            return Err(ModelError::IndexTwice { what, index: i });
+            return Err(ModelError::EntryTwice {
+                what,
+                row: i,
+                col: j,
+            });
         }
     }
 
@@ -247,10 +250,13 @@ fn symmetric(
     let mut seen = BTreeSet::new();
 
     for &(i, j, _) in &entries {
-        require_below(what, i, order)?;
-        require_below(what, j, order)?;
+        require_within(what, [i, j], [order, order])?;
         if !seen.insert((i.min(j), i.max(j))) {
-            return Err(ModelError::IndexTwice { what, index: i });
+            return Err(ModelError::EntryTwice {
+                what,
+                row: i,
+                col: j,
+            });
         }
     }
 
@@ -265,11 +271,22 @@ fn symmetric(
     Ok(Sparse::from_entries(rows, cols, mirrored))
 }
 
-fn require_below(what: &'static str, index: usize, limit: usize) -> Result<(), ModelError> {
-    if index >= limit {
-        return Err(ModelError::IndexOutOfRange { what, index, limit });
+fn require_within(
+    what: &'static str,
+    [row, col]: [usize; 2],
+    [rows, cols]: [usize; 2],
+) -> Result<(), ModelError> {
+    if row < rows && col < cols {
+        return Ok(());
     }
-    Ok(())
+
+    Err(ModelError::EntryOutside {
+        what,
+        row,
+        col,
+        rows,
+        cols,
+    })
 }
 
 /// Each entry as the exact value of its nearest double.
@@ -309,36 +326,32 @@ mod tests {
         assert_eq!(dense.get(0, 1), rational(1, 2));
     }
 
-    /// The index and the limit for which a matrix with one entry is refused.
-    fn refused_index(
-        [rows, cols]: [usize; 2],
-        symmetric: bool,
-        [i, j]: [usize; 2],
-    ) -> Option<(usize, usize)> {
+    /// Is a matrix with one entry refused for the place of that?
+    fn is_outside([rows, cols]: [usize; 2], symmetric: bool, [i, j]: [usize; 2]) -> bool {
         let text = format!(
             r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric},
                 "entries": [[{i}, {j}, 2]]}}"#
         );
 
         match read(&text) {
-            Err(ModelError::IndexOutOfRange { index, limit, .. }) => Some((index, limit)),
-            _ => None,
+            Err(ModelError::EntryOutside { row, col, .. }) => [row, col] == [i, j],
+            _ => false,
         }
     }
 
     #[test]
     fn entries_lie_within_the_matrix_and_their_mirrors_too() {
         let cases = [
-            ([3, 2], false, [2, 1], None),
-            ([3, 2], false, [3, 0], Some((3, 3))),
-            ([3, 2], false, [0, 2], Some((2, 2))),
-            ([3, 2], true, [1, 0], None),
-            ([3, 2], true, [2, 0], Some((2, 2))),
-            ([2, 3], true, [0, 2], Some((2, 2))),
+            ([3, 2], false, [2, 1], false),
+            ([3, 2], false, [3, 0], true),
+            ([3, 2], false, [0, 2], true),
+            ([3, 2], true, [1, 0], false),
+            ([3, 2], true, [2, 0], true),
+            ([2, 3], true, [0, 2], true),
         ];
 
         for (shape, symmetric, place, expected) in cases {
-            assert_eq!(refused_index(shape, symmetric, place), expected);
+            assert_eq!(is_outside(shape, symmetric, place), expected);
         }
     }
 
@@ -366,19 +379,15 @@ mod tests {
         ));
         assert!(matches!(
             read(r#"{"rows":1,"cols":1,"entries":[[0,1,3]]}"#),
-            Err(ModelError::IndexOutOfRange {
-                index: 1,
-                limit: 1,
-                ..
-            })
+            Err(ModelError::EntryOutside { row: 0, col: 1, .. })
         ));
         assert!(matches!(
             read(r#"{"rows":1,"cols":1,"entries":[[0,0,3],[0,0,3]]}"#),
-            Err(ModelError::IndexTwice { .. })
+            Err(ModelError::EntryTwice { .. })
         ));
         assert!(matches!(
             read(r#"{"rows":2,"cols":2,"symmetric":true,"entries":[[0,1,3],[1,0,3]]}"#),
-            Err(ModelError::IndexTwice { .. })
+            Err(ModelError::EntryTwice { .. })
         ));
         assert!(matches!(
             read(r#"{"rows":99999999999,"cols":1,"entries":[]}"#),

@@ -227,7 +227,7 @@ fn leads_out_of(folder: &Path, path: &Path) -> bool {
 /// [`ModelError::Json`].
 pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, ModelError> {
     private::refuse_keys(text)?;
-    serde_json::from_str(text).map_err(|e| complaint(&e))
+    serde_json::from_str(text).map_err(|e| complaint(text, &e))
 }
 
 /// [`from_json`] for formats that let unknown fields pass, or keep a part of a file as it is: a
@@ -246,12 +246,12 @@ pub fn from_json_with_unique_keys<'a, T: serde::Deserialize<'a>>(
     text: &'a str,
 ) -> Result<T, ModelError> {
     private::refuse_keys(text)?;
-    serde_json::from_str::<Unique>(text).map_err(|e| complaint(&e))?;
-    serde_json::from_str(text).map_err(|e| complaint(&e))
+    serde_json::from_str::<Unique>(text).map_err(|e| complaint(text, &e))?;
+    serde_json::from_str(text).map_err(|e| complaint(text, &e))
 }
 
 /// The reader's complaint in one line of bounded length, its place as numbers.
-fn complaint(error: &serde_json::Error) -> ModelError {
+fn complaint(text: &str, error: &serde_json::Error) -> ModelError {
     let full = error.to_string();
     // serde_json ends its messages with the place.
     let without_place = match full.rsplit_once(" at line ") {
@@ -259,6 +259,10 @@ fn complaint(error: &serde_json::Error) -> ModelError {
         None => &full,
     };
 
+    let without_place = match without_place {
+        "expected value" => format!("expected value{}", found_at(text, error)),
+        other => other.to_owned(),
+    };
     let problem = without_place
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })
@@ -274,9 +278,50 @@ fn complaint(error: &serde_json::Error) -> ModelError {
     }
 }
 
+/// What stands where a value was expected, as a clause; empty where nothing does.
+fn found_at(text: &str, error: &serde_json::Error) -> String {
+    const LONGEST: usize = 24;
+
+    let line = text.lines().nth(error.line().saturating_sub(1));
+    let rest = line.and_then(|line| line.get(error.column().saturating_sub(1)..));
+    let letters = rest.unwrap_or_default().chars();
+    let ends_word = |c: &char| c.is_whitespace() || matches!(c, ',' | ']' | '}');
+    let word: String = letters
+        .take_while(|c| !ends_word(c))
+        .take(LONGEST)
+        .collect();
+    match word.as_str() {
+        "" => String::new(),
+        "NaN" | "Infinity" => {
+            format!(", got {word}, which is no number of JSON (leave out what has no value)")
+        }
+        matrix if matrix.starts_with("%%MatrixMarket") => {
+            ", got a Matrix Market file (`mceip convert` makes a problem of matrices and contacts)"
+                .to_owned()
+        }
+        other => format!(", got {other:?}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_stands_in_place_of_a_value_is_named() {
+        let complaint = |text: &str| {
+            from_json::<serde_json::Value>(text)
+                .unwrap_err()
+                .to_string()
+        };
+
+        let of_nan = complaint("{\"value\":\n  [1, NaN, 2]}");
+        assert!(of_nan.starts_with("line 2, column "), "{of_nan}");
+        assert!(of_nan.contains("got NaN, which is no number"), "{of_nan}");
+        assert!(complaint("%%MatrixMarket matrix\n1 1 1").contains("mceip convert"));
+        assert!(complaint("loading numpy").contains("got \"loading\""));
+        assert!(complaint("{\"value\": \u{e4}\u{f6}}").contains("expected value"));
+    }
 
     #[test]
     fn a_table_of_contact_states_keeps_its_order() {
