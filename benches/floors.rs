@@ -18,8 +18,8 @@ use mceip_testkit::campaign::{FAMILIES, Id, case, treatment};
 use mceip_testkit::floors::{Coverage, Starts};
 use mceip_testkit::targets::{Counter, fuzz_treatment};
 use mceip_testkit::{
-    Instance, Treatment, coverage_of, degenerate, mechanical, path_coverage, random_pencils,
-    table1_grid,
+    Instance, Treatment, coverage_of, degenerate, eigenvalue_problems, mechanical, path_coverage,
+    random_pencils, table1_grid,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -128,6 +128,10 @@ fn measure_the_families_of_verify() {
             ("Table 1 (two particles)", table1_grid().unwrap()),
             ("random pencils", random_pencils(count, seed).unwrap()),
             ("mechanical systems", mechanical(count, seed).unwrap()),
+            (
+                "eigenvalue problems",
+                eigenvalue_problems(count, seed).unwrap(),
+            ),
             ("degenerate cases", degenerate().unwrap()),
         ];
 

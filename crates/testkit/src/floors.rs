@@ -235,7 +235,7 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 /// `free-anywhere`, `planted` and `table1-near`, at most 1.5 for the others. A floor is lowered
 /// only with a reason beside its row.
 #[rustfmt::skip]
-pub const FLOORS: [Floor; 41] = [
+pub const FLOORS: [Floor; 43] = [
     // `mceip verify`; instances of seeds 9001 and 9002 (Table 1 is one grid, its starts have these
     // seeds).
     // 100.00, 100.00 of 604.
@@ -244,6 +244,8 @@ pub const FLOORS: [Floor; 41] = [
     row("Table 1 (two particles)", Starts::Interior, 98.0, 98.0),
     row("Table 1 (two particles)", Starts::Path, 98.0, 91.0),                // 100.00, 93.05 of 604
     row("degenerate cases", Starts::Search, 98.0, 98.0),                     // 100.00, 100.00 of 20
+    // 97.29, 99.66 of 295 (2026-11-29, 300 of each seed).
+    row("eigenvalue problems", Starts::Search, 95.3, 97.7),
     // 99.91, 100.00 of 1158.
     row("mechanical systems", Starts::Search, 97.9, 98.0),
     // 99.92, 100.00 of 1265.
@@ -286,9 +288,10 @@ pub const FLOORS: [Floor; 41] = [
     row("planted", Starts::Search, 87.3, 96.7),                              // 89.29, 98.70 of 308
     row("near", Starts::Search, 94.8, 97.2),                                 // 96.79, 99.20 of 374
     row("scales", Starts::Search, 96.8, 97.6),                               // 98.81, 99.60 of 253
+    row("eigenvalues", Starts::Search, 94.7, 96.6),                          // 96.67, 98.57 of 210
     // Fuzz targets, less ten points: 200 random inputs and 200 changed ones of the corpus for each
     // seed, the lower rate.
-    // 100.00, 100.00 of 60 and 104.
+    // 99.36, 98.08 of 140 and 156 (2026-11-29).
     row("fuzz: solver_against_oracle", Starts::Search, 90.0, 90.0),
     // 99.18, 100.00 of 236 and 243.
     row("fuzz: mechanical_systems", Starts::Search, 89.2, 90.0),

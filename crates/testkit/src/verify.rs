@@ -153,7 +153,10 @@ pub fn verify(
         ("Table 1 (two particles)", table1_grid()?),
         ("random pencils", random_pencils(random, seed)?),
         ("mechanical systems", mechanical(random / 4, seed)?),
-        ("eigenvalue problems", eigenvalue_problems(random / 4, seed)?),
+        (
+            "eigenvalue problems",
+            eigenvalue_problems(random / 4, seed)?,
+        ),
         ("degenerate cases", degenerate()?),
     ];
 

@@ -182,11 +182,7 @@ pub fn of_kind(rng: &mut ChaCha8Rng, kind: u64, n: usize) -> Result<Pencil, Mode
 ///
 /// # Errors
 /// [`ModelError`] for no variables.
-pub fn quadratic(
-    rng: &mut ChaCha8Rng,
-    kind: u64,
-    n: usize,
-) -> Result<QuadraticPencil, ModelError> {
+pub fn quadratic(rng: &mut ChaCha8Rng, kind: u64, n: usize) -> Result<QuadraticPencil, ModelError> {
     let mut matrices: [_; 3] = std::array::from_fn(|_| drawn(n, || rng.random_range(-3..=3)));
     let pivot = rng.random_range(0..n.max(1));
     let other = rng.random_range(0..n.max(1));
