@@ -417,7 +417,7 @@ fn claims_verdict(problem: &Problem, windows: &[RealWindow], count: usize) -> St
 
 /// The verdict on a cover that proves that there is no solution.
 fn absence_verdict(problem: &Problem, windows: &[RealWindow], cover: &AcceptedCover) -> String {
-    let word = problem.word();
+    let word = problem.unknown().word();
     let digest = problem.sha256();
     let leaves = cover.leaves;
     let smaller = smaller_text(windows, problem);
@@ -449,7 +449,7 @@ fn cover_verdict(problem: &Problem, windows: &[RealWindow], cover: &AcceptedCove
 
 /// A proved claim, and its place in the cover beside it.
 fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) -> String {
-    let word = problem.word();
+    let word = problem.unknown().word();
     let (lo, hi) = enclosing_decimals(&claim.value, 17);
     let slip = say::slip_text(problem, &claim.support);
     let proved = format!("{word} in [{lo}, {hi}], {slip}");

@@ -145,7 +145,7 @@ fn undecided(args: &Args, unknown: Unknown, reason: &SearchError) -> Result<u8, 
 fn print_asides(args: &Args, problem: &Problem, found: &Found) -> Result<(), CliError> {
     let pencil = reduce(problem.as_model())?.pencil;
     let run = found.as_run();
-    let word = problem.as_model().word();
+    let word = problem.as_model().unknown().word();
     for point in &found.uncertified {
         let value = point.candidate.value;
         aside(&format!("uncertified: {word} = {value}: {}", point.reason));

@@ -11,7 +11,7 @@ const SHOWN: usize = 20;
 
 /// What a cover of this window has proved, for people.
 pub(crate) fn text(problem: &Problem, window: &str, cover: &AcceptedCover) -> String {
-    let word = problem.word();
+    let word = problem.unknown().word();
     let mut out = String::new();
     for solution in &cover.solutions {
         let (lo, hi) = enclosing_decimals(&solution.value, 15);
@@ -85,7 +85,7 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
 }
 
 fn family_text(problem: &Problem, family: &SolutionFamily) -> String {
-    let values = family_values(problem.word(), family);
+    let values = family_values(problem.unknown().word(), family);
     let slip = slip_text(problem, &family.support);
     let how_many = family_size(family);
     format!("{values}, {slip}, {how_many}")

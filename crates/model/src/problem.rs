@@ -105,15 +105,6 @@ impl Problem {
         self.is_reflected
     }
 
-    /// Which number is sought, in words: of a reflected problem that of the given one.
-    pub fn word(&self) -> &'static str {
-        if self.is_reflected {
-            "-eigenvalue"
-        } else {
-            self.unknown.word()
-        }
-    }
-
     /// Where it is sought among the numbers that are not negative.
     pub fn window(&self) -> &Window {
         &self.window

@@ -32,16 +32,6 @@ pub struct Reported {
     pub off: Option<Off>,
 }
 
-impl Reported {
-    /// The same solution of the reflected pencil.
-    pub fn reflected(&self) -> Reported {
-        Reported {
-            candidate: self.candidate.reflected(),
-            off: self.off,
-        }
-    }
-}
-
 /// A component of v that should be zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Off {

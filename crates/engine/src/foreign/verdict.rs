@@ -72,7 +72,10 @@ pub enum Refutation {
     #[error("E12: expected x != 0, got the zero vector")]
     ZeroX,
     /// A component that no solution has, by more than rounding.
-    #[error("x[{index}] = {} < 0 at largest |x_i| = 1, and every solution has x[{index}] >= 0", plain_or_power(*value))]
+    #[error(
+        "x[{index}] = {} < 0 at largest |x_i| = 1, and every solution has x[{index}] >= 0",
+        plain_or_power(*value)
+    )]
     NegativeX {
         /// The variable.
         index: usize,

@@ -174,7 +174,8 @@ pub fn complete(
     let is_expanded = prepared.is_expanded();
     let start = with_set(problem, prepared.open_set());
     let mut found = run(&given, prepared, start, options, watch)?;
-    let may_be_closer = is_expanded && options.shard.is_none();
+    let is_small = pencil.free().len() <= MOST_FREE_OF_CLOSER;
+    let may_be_closer = is_expanded && is_small && options.shard.is_none();
     if may_be_closer && !found.is_complete() && !watch.is_cancelled() {
         let prepare = || Prepared::closer(problem, &pencil, options.pieces, CLOSER);
         let prepared = in_threads(options.threads, prepare)?;
@@ -188,6 +189,10 @@ pub fn complete(
     }
     Ok(found)
 }
+
+/// Free variables up to which a window that stays open is searched again with closer anchors, which
+/// have nearly three times as many coefficients.
+const MOST_FREE_OF_CLOSER: usize = 400;
 
 /// Goes on with a certificate that leaves regions open: only these are searched.
 ///
