@@ -17,7 +17,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ._native import NativeProblem
-from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text
+from .exact import (
+    Interval,
+    fraction_of,
+    fraction_or_none,
+    interval_of,
+    number_text,
+    range_text,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -219,21 +226,25 @@ class Accepted:
             of completeness.
         families: the continua of solutions.
         open: what the certificate leaves open.
+        windows: the windows that the certificate speaks of, as "[10, 11]"; they may be smaller than
+            that of the problem.
     """
 
     claims: list[Claim]
     solutions: list[Claim] | None
     families: list[Family]
     open: list[OpenRegion]
+    windows: list[str]
 
     @property
     def is_complete(self) -> bool:
-        """Does the certificate prove that there are no other solutions?"""
+        """Does the certificate prove that there are no other solutions in its `windows`?"""
         return self.solutions is not None and not self.open
 
     def __repr__(self) -> str:
         proved = self.claims if self.solutions is None else self.solutions
-        others = "there are no others" if self.is_complete else "others are not excluded"
+        windows = " and ".join(self.windows)
+        others = f"no others in {windows}" if self.is_complete else "others are not excluded"
         regions = f"{counted(len(self.open), 'region')} open"
         count = counted(len(proved), "solution")
         return two_lines(
@@ -288,7 +299,7 @@ class Presence:
 
     def __repr__(self) -> str:
         return two_lines(
-            f"Presence for friction in {Interval(self.start, self.end)}{of_members(self)}",
+            f"Presence for friction in {range_text(self.start, self.end)}{of_members(self)}",
             f"a solution with lambda^2 >= 0 at each; {counted(self.pieces, 'piece')} accepted",
         )
 
@@ -350,7 +361,7 @@ class Members:
 
     def __repr__(self) -> str:
         absent = "none proved" if self.absent_below is None else number_text(self.absent_below)
-        present = "none proved" if self.present is None else str(Interval(*self.present))
+        present = "none proved" if self.present is None else range_text(*self.present)
         middle = "" if self.middle is None else f"critical friction near {self.middle:.6g}, "
         width = "no first order" if self.width is None else f"first order +- {self.width:.2g}"
         return two_lines(
@@ -665,12 +676,13 @@ def accepted_of(answer: dict[str, Any]) -> Accepted:
     claims = [claim_of(claim) for claim in answer["claims"]]
     cover = answer["complete_set"]
     if cover is None:
-        return Accepted(claims, solutions=None, families=[], open=[])
+        return Accepted(claims, None, families=[], open=[], windows=answer["windows"])
     return Accepted(
         claims=claims,
         solutions=[claim_of(claim) for claim in cover["solutions"]],
         families=[family_of(family) for family in cover["families"]],
         open=[region_of(region) for region in cover["open"]],
+        windows=answer["windows"],
     )
 
 

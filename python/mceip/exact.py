@@ -37,6 +37,17 @@ class Interval(NamedTuple):
         return str(self)
 
 
+def range_text(lower: Fraction, upper: Fraction) -> str:
+    """A range at each number of which something is proved, rounded inwards: all that is printed lies
+    in it."""
+    scale = Fraction(10) ** (MOST_SIGNIFICANT - magnitude(upper))
+    below, above = (lower * scale).__ceil__(), (upper * scale).__floor__()
+    if below > above:
+        return f"[{lower}, {upper}]"
+    places = MOST_SIGNIFICANT - magnitude(upper)
+    return f"[{decimal_text(below, places)}, {decimal_text(above, places)}]"
+
+
 def places_of(interval: Interval) -> int:
     """Decimal places that show how narrow an interval is, and not too many digits."""
     lower, upper = interval

@@ -4,7 +4,7 @@
 
 use mceip::{
     Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, ModelError,
-    OpenRegion, Solution, SolutionFamily, SolutionSet, Uncertified,
+    OpenRegion, RealWindow, Solution, SolutionFamily, SolutionSet, Uncertified,
 };
 use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, PRESENCE_FORMAT, STABILITY_FORMAT,
@@ -65,7 +65,8 @@ pub(crate) fn analysis(analysis: &Analysis) -> Result<Value, ModelError> {
     Ok(json!({ "answer": analysis.to_json(&paths), "proofs": proofs }))
 }
 
-pub(crate) fn accepted(accepted: &Accepted) -> Value {
+/// `windows` are those of the certificate.
+pub(crate) fn accepted(accepted: &Accepted, windows: &[RealWindow]) -> Value {
     let claims: Vec<Value> = accepted.claims.iter().map(claim).collect();
     let cover = accepted.cover.as_ref().map(|cover| {
         let solutions: Vec<Value> = cover.solutions.iter().map(claim).collect();
@@ -76,7 +77,13 @@ pub(crate) fn accepted(accepted: &Accepted) -> Value {
         })
     });
 
-    json!({ "format": CERTIFICATE_FORMAT, "claims": claims, "complete_set": cover })
+    let windows: Vec<String> = windows.iter().map(ToString::to_string).collect();
+    json!({
+        "format": CERTIFICATE_FORMAT,
+        "claims": claims,
+        "complete_set": cover,
+        "windows": windows,
+    })
 }
 
 pub(crate) fn absence(accepted: &AcceptedAbsence) -> Value {

@@ -316,7 +316,8 @@ impl NativeProblem {
         } else if is(STABILITY_FORMAT) {
             answers::stability(&self.accepted::<StabilityCertificate>(py, text)?)
         } else {
-            answers::accepted(&self.accepted::<Certificate>(py, text)?)
+            let windows = certificate(text)?.windows();
+            answers::accepted(&self.accepted::<Certificate>(py, text)?, &windows)
         };
         Ok(accepted.to_string())
     }

@@ -3,6 +3,7 @@
 import copy
 import dataclasses
 import json
+import re
 from fractions import Fraction
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from bodies import lattice
 
 import mceip
-from mceip.answers import fraction_of
+from mceip.answers import Presence, fraction_of
 
 
 def test_the_fold_has_two_solutions_and_no_others(example):
@@ -371,3 +372,21 @@ def test_fractions_of_any_length_are_read():
     assert fraction_of(digits) == 7 * (10**9001 - 1) // 9
     assert fraction_of("-1/3") == Fraction(-1, 3)
     assert fraction_of("0.25") == Fraction(1, 4)
+
+
+def test_a_smaller_window_is_said_and_ranges_are_rounded_inwards():
+    problem = mceip.Problem.eicp([[8.0, -1, -2], [3, 4, -1], [-1, 0, -6]], np.eye(3))
+    part = problem.in_window(10, 11).complete().certificate
+
+    statement = mceip.check(problem, part)
+
+    assert statement.windows == ["[10, 11]"]
+    assert "no others in [10, 11]" in repr(statement)
+    whole = mceip.check(problem, problem.complete().certificate)
+    assert whole.windows == ["(-infinity, infinity)"]
+
+    lower, upper = Fraction(7710747, 4194304), Fraction(20, 7)
+    presence = Presence(lower, upper, 1, False)
+    printed = re.search(r"\[(.*), (.*)\]", repr(presence).splitlines()[0])
+    assert printed is not None
+    assert lower <= Fraction(printed[1]) < Fraction(printed[2]) <= upper

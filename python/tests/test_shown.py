@@ -47,7 +47,7 @@ def test_every_answer_has_two_lines_with_its_figures(shown):
         "found": "2 solutions, certified: 2, 3",
         "set": "complete\n 2 solutions: 2, 3",
         "solution": "lambda2 in [1.99",
-        "accepted": "there are no others",
+        "accepted": "no others in [0, infinity)",
         "analysis": "mu = 1.5: present, growing at 0.5 1/s\n critical friction in [1.33",
         "critical": "in [1.333333333333, 1.333333333334]",
         "mode": "growing at 0.5 1/s",
