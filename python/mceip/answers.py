@@ -476,13 +476,18 @@ class CriticalFriction:
 
     @property
     def bounds(self) -> Interval | None:
-        """Encloses the critical friction coefficient; None where no upper bound was found."""
+        """Encloses the critical friction coefficient, 0 where there is divergence without friction
+        already; None where no upper bound was found."""
+        if self.without_friction == "present":
+            return Interval(Fraction(0), Fraction(0))
         if self.absent_below is None or self.mu is None:
             return None
         return Interval(self.absent_below, self.mu.upper)
 
     @property
     def _bounds_text(self) -> str:
+        if self.without_friction == "present":
+            return "0: divergence without friction already"
         if self.absent_below is None:
             return "none: no divergence at any mu"
         if self.bounds is None:

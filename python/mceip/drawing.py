@@ -62,6 +62,11 @@ class Drawing:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the SVG file."""
+        if os.path.splitext(path)[1].lower() != ".svg":
+            raise MceipError(
+                f"path: expected a name that ends in .svg, got {os.fspath(path)!r} (other formats: "
+                "plot().figure.savefig)"
+            )
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.svg)
 

@@ -36,6 +36,10 @@ class Interval(NamedTuple):
     def __repr__(self) -> str:
         return str(self)
 
+    def __contains__(self, number: object) -> bool:
+        """Does a number lie in the interval?"""
+        return isinstance(number, (int, float, Fraction)) and self.lower <= number <= self.upper
+
 
 def range_text(lower: Fraction, upper: Fraction) -> str:
     """A range at each number of which something is proved, rounded inwards: all that is printed lies

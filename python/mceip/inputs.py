@@ -309,7 +309,9 @@ def counts(name: str, values: Any) -> list[int]:
 
 
 def count(name: str, value: Any, least: int = 0, most: int = 2**63 - 1) -> int:
-    """An integer from `least` to `most`."""
+    """An integer from `least` to `most`; True and False are none."""
+    if isinstance(value, bool):
+        raise MceipError(f"{name}: expected an integer, got {value!r}")
     try:
         number = operator.index(value)
     except TypeError:

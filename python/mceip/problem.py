@@ -66,6 +66,9 @@ class Problem:
     done, and the steps in all (or None); or True for a bar of tqdm.
     """
 
+    # A problem is fixed when it is made: there is nothing else to assign.
+    __slots__ = ("_native",)
+
     def __init__(self, native: NativeProblem) -> None:
         self._native = native
 

@@ -12,6 +12,7 @@ from bodies import lattice
 
 import mceip
 from mceip.answers import Presence, fraction_of
+from mceip.exact import Interval
 
 
 def test_the_fold_has_two_solutions_and_no_others(example):
@@ -390,3 +391,27 @@ def test_a_smaller_window_is_said_and_ranges_are_rounded_inwards():
     printed = re.search(r"\[(.*), (.*)\]", repr(presence).splitlines()[0])
     assert printed is not None
     assert lower <= Fraction(printed[1]) < Fraction(printed[2]) <= upper
+
+
+def test_divergence_without_friction_is_one_answer(example):
+    critical = example("two-particles").analyze(samples=0).critical
+    already = dataclasses.replace(critical, without_friction="present")
+
+    assert already.bounds == (0, 0)
+    assert "0: divergence without friction already" in repr(already)
+    assert critical.bounds is not None and critical.bounds.upper > 0
+
+
+def test_a_number_lies_in_an_interval_or_not():
+    interval = Interval(Fraction(1, 3), Fraction(1, 2))
+
+    assert 0.4 in interval and Fraction(1, 3) in interval
+    assert 0.6 not in interval and "0.4" not in interval
+
+
+def test_problems_are_fixed(example):
+    problem = example("two-particles")
+    with pytest.raises(AttributeError):
+        problem.friction = 1.5
+    with pytest.raises(mceip.MceipError, match="free: expected an integer, got True"):
+        mceip.Problem.from_pencil(np.eye(2), np.eye(2), [True, False])

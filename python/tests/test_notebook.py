@@ -29,6 +29,8 @@ def test_a_mode_is_drawn(tmp_path):
     )
 
     drawing.save(tmp_path / "mode.svg")
+    with pytest.raises(mceip.MceipError, match="ends in .svg, got .*mode.png"):
+        drawing.save(tmp_path / "mode.png")
     root = ElementTree.parse(tmp_path / "mode.svg").getroot()
     name = "{http://www.w3.org/2000/svg}"
     assert root.findtext(name + "title") == "a < b"
