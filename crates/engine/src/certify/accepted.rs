@@ -65,8 +65,15 @@ impl<'a> Certifier<'a> {
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let window = self.problem.window();
         let candidate = candidate.one_sided(&self.zero);
-        let proposals = proposals(self.pencil, &self.rows, window, &candidate, self.preference)?;
-        self.first_accepted(proposals, &candidate)
+        let proposals = proposals(self.pencil, &self.rows, window, &candidate, self.preference);
+        let certified = proposals.and_then(|found| self.first_accepted(found, &candidate));
+        certified.map_err(|reason| {
+            if self.problem.is_reflected() {
+                reason.reflected()
+            } else {
+                reason
+            }
+        })
     }
 
     /// The first accepted proposal that is taken for the one meant ([`is_meant`]), else the

@@ -2,6 +2,7 @@
 //!
 //! The texts of the failures are printed by the program and written into reports.
 
+use crate::report::negated;
 use mceip_check::Reason;
 
 /// A candidate that stays uncertified, with what was tried.
@@ -119,6 +120,16 @@ impl NotCertified {
     pub fn is_no_candidate(&self) -> bool {
         let mut attempts = self.attempts.iter();
         attempts.all(|attempt| attempt.failure.is_of_no_candidate())
+    }
+
+    /// Of a point of the reflected problem, as one of the problem: values change their sign.
+    pub(super) fn reflected(mut self) -> NotCertified {
+        for attempt in &mut self.attempts {
+            if let AttemptFailure::NoRootNear { lo, hi } = &mut attempt.failure {
+                (*lo, *hi) = (negated(hi), negated(lo));
+            }
+        }
+        self
     }
 
     /// A failure before any support was tried.
