@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from decimal import Decimal
 from fractions import Fraction
+from numbers import Rational, Real
 from typing import NamedTuple
 
 #: Digits that are read at once: Python itself reads 4300 at most.
@@ -38,7 +39,10 @@ class Interval(NamedTuple):
 
     def __contains__(self, number: object) -> bool:
         """Does a number lie in the interval?"""
-        return isinstance(number, (int, float, Fraction)) and self.lower <= number <= self.upper
+        if not isinstance(number, Real):
+            return False
+        exact = number if isinstance(number, Rational) else float(number)
+        return bool(self.lower <= exact <= self.upper)
 
 
 def range_text(lower: Fraction, upper: Fraction) -> str:

@@ -405,8 +405,8 @@ def test_divergence_without_friction_is_one_answer(example):
 def test_a_number_lies_in_an_interval_or_not():
     interval = Interval(Fraction(1, 3), Fraction(1, 2))
 
-    assert 0.4 in interval and Fraction(1, 3) in interval
-    assert 0.6 not in interval and "0.4" not in interval
+    assert 0.4 in interval and Fraction(1, 3) in interval and np.float32(0.4) in interval
+    assert 0.6 not in interval and float("nan") not in interval and "0.4" not in interval
 
 
 def test_problems_are_fixed(example):

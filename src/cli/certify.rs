@@ -72,27 +72,38 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let job = Job::begin("certifying");
-    let mut places = Vec::with_capacity(points.len());
-    for point in &points {
-        places.push(match point {
+    let on_side = |side| Certifying {
+        side,
+        radius: radius.as_ref(),
+        job: &job,
+    };
+    let mut own = Vec::new();
+    let mut reflected = Vec::new();
+    let mut next_to_zero = Vec::new();
+    for (index, point) in points.iter().enumerate() {
+        let sought = match point {
             Ok(reported) => Sought::of(&signs, &reported.candidate),
             // What is no vector has no value to go by.
             Err(_) => Sought::Own,
-        });
-    }
-    let judge_side = |side: &OfSign, elsewhere: Sought| {
-        let certifying = Certifying {
-            side,
-            radius: radius.as_ref(),
-            job: &job,
         };
-        let here = points.iter().zip(&places).enumerate();
-        let here = here.filter(|(_, (_, place))| **place != elsewhere);
-        certifying.judge(here.map(|(index, (point, _))| (index, point)))
-    };
-    let mut judged = judge_side(signs.own(), Sought::Reflected);
-    let reflected = signs.reflected();
-    let judged_negative = reflected.map(|reflected| judge_side(reflected, Sought::Own));
+        match sought {
+            Sought::Own => own.push((index, point)),
+            Sought::Reflected => reflected.push((index, point)),
+            Sought::Both(reasons) => next_to_zero.push((index, point, reasons)),
+        }
+    }
+
+    let mut judged = on_side(signs.own()).judge(own);
+    let mut judged_negative = signs.reflected().map(|side| on_side(side).judge(reflected));
+    if let (Some(side), Some(negative)) = (signs.reflected(), &mut judged_negative) {
+        let sides = [on_side(signs.own()), on_side(side)];
+        for (index, point, reasons) in next_to_zero {
+            if let Ok(reported) = point {
+                let of_sides = [&mut judged, &mut *negative];
+                judge_on_both(&sides, of_sides, index, reported, &reasons)?;
+            }
+        }
+    }
     job.end();
     if let Body::System(system) = problem.body()
         && args.lifted
@@ -101,7 +112,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let mut files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
-    if let (Some(reflected), Some(mut negative)) = (reflected, judged_negative) {
+    if let (Some(reflected), Some(mut negative)) = (signs.reflected(), judged_negative) {
         let claims = std::mem::take(&mut negative.claims);
         files = of_both_signs(&problem, files, Proved::claims(&reflected.problem, claims)?)?;
         judged.add_negative(&problem, negative)?;
@@ -125,42 +136,79 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 }
 
 /// On which side of 0 a point is looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sought {
     /// Among the values of the problem itself.
     Own,
     /// Among those of its reflection.
     Reflected,
-    /// On both: next to 0, and certified on neither.
-    Both,
+    /// On both: next to 0, and not certified on either, the problem's first, for these reasons.
+    Both(Box<[NotCertified; 2]>),
 }
 
 impl Sought {
     fn of(signs: &BothSigns, candidate: &Candidate) -> Sought {
-        let of = |side: &OfSign| {
+        let on = |side: &OfSign| {
             if side.problem.is_reflected() {
                 Sought::Reflected
             } else {
                 Sought::Own
             }
         };
-        let is_certified = |side: &OfSign| {
+        let certify = |side: &OfSign| {
             let certifier = Certifier::new(&side.problem, &side.reduced.pencil);
-            certifier.certify(&side.candidate(candidate)).is_ok()
+            certifier.certify(&side.candidate(candidate))
         };
 
         let (likelier, other) = signs.near(candidate);
-        match other {
-            Some(other) if !is_certified(likelier) => {
-                if is_certified(other) {
-                    of(other)
-                } else {
-                    Sought::Both
-                }
-            }
-            _ => of(likelier),
+        let Some(other) = other else {
+            return on(likelier);
+        };
+        match (certify(likelier), certify(other)) {
+            (Ok(_), _) => on(likelier),
+            (_, Ok(_)) => on(other),
+            (Err(here), Err(there)) => Sought::Both(Box::new(match on(likelier) {
+                Sought::Reflected => [there, here],
+                _ => [here, there],
+            })),
         }
     }
+}
+
+/// What becomes of a point next to 0 that is not certified on either side: it is no solution only
+/// if it is none on both. The problem and what is judged of it come first, then the reflection.
+fn judge_on_both(
+    [own, reflected]: &[Certifying<'_>; 2],
+    [judged, negative]: [&mut Judged; 2],
+    index: usize,
+    reported: &Reported,
+    reasons: &[NotCertified; 2],
+) -> Result<(), CliError> {
+    let job = own.job;
+    if job.is_cancelled() {
+        job.note(&interrupted(index));
+        return Ok(());
+    }
+
+    let value = reported.candidate.value;
+    let [why_above, why_below] = reasons;
+    let above = own.look_nearby(&own.side.candidate(&reported.candidate), why_above);
+    if above.verdict == ExaminationVerdict::Present {
+        judged.add(job, index, value, above);
+        return Ok(());
+    }
+    let below = reflected.look_nearby(&reflected.side.candidate(&reported.candidate), why_below);
+    if below.verdict == ExaminationVerdict::Present {
+        negative.add(job, index, value, below);
+        return Ok(());
+    }
+
+    let neither = above.and_below(&own.side.problem, below)?;
+    judged.add(job, index, value, neither);
+    Ok(())
+}
+
+fn interrupted(index: usize) -> String {
+    format!("solution {index}: interrupted before it was looked at")
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
@@ -211,22 +259,25 @@ impl Examination {
         begins_within && ends_within && possible == [own]
     }
 
-    /// What is found of a point next to 0 on both sides: it is no solution if it is none on either.
-    fn join_negative(&mut self, problem: &Problem, below: Examination) -> Result<(), CliError> {
-        use ExaminationVerdict::{Disproved, Present, Undecided};
-
-        self.text = format!("{}; {}", self.text, below.text);
-        self.verdict = match (self.verdict, below.verdict) {
-            (Disproved, Disproved) => Disproved,
-            (Present, _) | (_, Present) => Present,
-            (Undecided, _) | (_, Undecided) => Undecided,
+    /// What is found of a point next to 0 that is present on neither side.
+    fn and_below(self, problem: &Problem, below: Examination) -> Result<Examination, CliError> {
+        let is_undecided = |finding: &Examination| finding.verdict == ExaminationVerdict::Undecided;
+        let verdict = if is_undecided(&self) || is_undecided(&below) {
+            ExaminationVerdict::Undecided
+        } else {
+            ExaminationVerdict::Disproved
         };
-        self.proof = match (self.proof.take(), below.proof) {
+        let proof = match (self.proof, below.proof) {
             (Some(above), Some(below)) => Some(above.with_negative(problem, below)?),
             // One side alone proves nothing of the point.
             _ => None,
         };
-        Ok(())
+        Ok(Examination {
+            verdict,
+            text: format!("{}; {}", self.text, below.text),
+            proof,
+            solution: None,
+        })
     }
 
     /// What is no vector of the problem is no solution.
@@ -283,22 +334,27 @@ impl Judged {
     /// Adds what became of the points with values below 0. What is proved of the reflected problem
     /// is said of the given one.
     fn add_negative(&mut self, problem: &Problem, negative: Judged) -> Result<(), CliError> {
-        for below in negative.refused {
-            let mut own = self.refused.iter_mut();
-            match own.find(|above| above.index == below.index) {
-                Some(above) => above.finding.join_negative(problem, below.finding)?,
-                None => {
-                    let mut refused = below;
-                    if let Some(proof) = refused.finding.proof {
-                        let said = of_negative_values(problem, proof.into_certificate());
-                        refused.finding.proof = Some(Proved::new(problem, said)?);
-                    }
-                    self.refused.push(refused);
-                }
+        for mut refused in negative.refused {
+            if let Some(proof) = refused.finding.proof {
+                let said = of_negative_values(problem, proof.into_certificate());
+                refused.finding.proof = Some(Proved::new(problem, said)?);
             }
+            self.refused.push(refused);
         }
         self.refused.sort_by_key(|refused| refused.index);
         Ok(())
+    }
+
+    /// Says what is found of a solution without a claim, and keeps it unless it was listed before.
+    fn add(&mut self, job: &Job, index: usize, value: f64, finding: Examination) {
+        if self.has(&finding) {
+            job.note(&format!("solution {index} (value {value}): listed before"));
+            return;
+        }
+
+        let text = &finding.text;
+        job.note(&format!("solution {index} (value {value}): {text}"));
+        self.refused.push(Refused { index, finding });
     }
 
     /// Is the solution of a finding claimed, or listed by an earlier cover?
@@ -421,17 +477,12 @@ struct Certifying<'a> {
 
 impl Certifying<'_> {
     /// Certifies one after the other and says what becomes of each, until interrupted.
-    fn judge<'p>(
-        &self,
-        points: impl Iterator<Item = (usize, &'p Result<Reported, BadPoint>)>,
-    ) -> Judged {
+    fn judge(&self, points: Vec<(usize, &Result<Reported, BadPoint>)>) -> Judged {
         let certifier = Certifier::new(&self.side.problem, &self.side.reduced.pencil);
         let mut judged = Judged::default();
         for (index, point) in points {
             if self.job.is_cancelled() {
-                self.job.note(&format!(
-                    "solution {index}: interrupted before it was looked at"
-                ));
+                self.job.note(&interrupted(index));
                 break;
             }
 
@@ -459,16 +510,7 @@ impl Certifying<'_> {
                 }
                 Err(reason) => {
                     let finding = self.look_nearby(candidate, &reason);
-                    if judged.has(&finding) {
-                        self.job
-                            .note(&format!("solution {index} (value {value}): listed before"));
-                        continue;
-                    }
-
-                    let text = &finding.text;
-                    self.job
-                        .note(&format!("solution {index} (value {value}): {text}"));
-                    judged.refused.push(Refused { index, finding });
+                    judged.add(self.job, index, value, finding);
                 }
             }
         }

@@ -2,9 +2,9 @@
 //!
 //! Input: ranges of mu with a verdict each, the sampled values of mu, and the values that a reader
 //! looks for. Boxes above the axis show the ranges: verdicts differ in shade and hatching, a full
-//! outline is a proof, a dashed one joins samples, and without a box nothing was examined. A bar
-//! above them holds the critical mu of every body within the radii of the data. Called by `mceip
-//! analyze` and `mceip path`.
+//! outline is a proof, a dashed one joins samples or stands about what is undecided, and without a
+//! box nothing was examined. A bar above them holds the critical mu of every body within the radii
+//! of the data. Called by `mceip analyze` and `mceip path`.
 
 use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, line, text};
 use super::drawing::Picture;

@@ -527,8 +527,8 @@ fn why_not_held(pivot: Option<&Rational>) -> &'static str {
                 has: look at the signs in K";
     }
 
-    "in these contact states the body can move without any force: hold its supports (leave \
-     their degrees of freedom out of K)"
+    "in these contact states a motion needs no work, as of a body that is not held (leave the \
+     degrees of freedom of its supports out of K)"
 }
 
 /// What to do about a missing field.

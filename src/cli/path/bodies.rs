@@ -72,7 +72,8 @@ pub(super) fn of_deciding(own: &OwnCritical) -> Vec<Named> {
     let place = DrawnEquilibrium {
         name: "own-critical-body".into(),
         title: format!(
-            "Contact states that decide at \u{3bc} = {mu}: {amount} of step {step} (the body at rest)"
+            "Contact states that decide at \u{3bc} = {mu}: {amount} of step {step} (the body at \
+             rest)"
         ),
         stretch,
         at: &examined.equilibrium,

@@ -119,7 +119,7 @@ impl NotCertified {
     /// Is what was given no candidate at all: of another length, not finite, or zero?
     pub fn is_no_candidate(&self) -> bool {
         let mut attempts = self.attempts.iter();
-        attempts.all(|attempt| attempt.failure.is_of_no_candidate())
+        !self.attempts.is_empty() && attempts.all(|attempt| attempt.failure.is_of_no_candidate())
     }
 
     /// Of a point of the reflected problem, as one of the problem: values change their sign.

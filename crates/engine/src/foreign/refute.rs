@@ -8,7 +8,7 @@
 //! Called by [`judge`](super::judge) for a point that could not be certified.
 
 use super::singular::has_singular_support;
-use super::verdict::Refutation;
+use super::verdict::{Examined, Refutation};
 use crate::candidate::{Candidate, distance, scaled};
 use crate::tolerance::{DISTANCE_ROUNDING, X_RADIUS};
 use mceip_exact::to_f64;
@@ -148,13 +148,13 @@ pub(super) fn refute(
         };
     }
     let others = found.others(candidate, &normalised)?;
-    Ok(EnumerationAnswer::Refuted(Refutation::NothingNear {
+    let nothing = Refutation::NothingNear(Examined {
         lo: to_f64(&lo),
         hi: to_f64(&hi),
-        x_radius: X_RADIUS,
         supports,
         others,
-    }))
+    });
+    Ok(EnumerationAnswer::Refuted(nothing))
 }
 
 /// All that an enumeration finds in a window.

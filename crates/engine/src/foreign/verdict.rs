@@ -91,27 +91,37 @@ pub enum Refutation {
         window: RealWindow,
     },
     /// The complete answer near the value holds nothing like it.
-    #[error(
-        "no solution with value in [{lo:?}, {hi:?}] has x within {x_radius:e} of this one (all \
-         {supports} supports examined exactly, {})",
-        others_text(*others)
-    )]
-    NothingNear {
-        /// Lower end of the values examined.
-        lo: f64,
-        /// Upper end.
-        hi: f64,
-        /// Distance in x, both at largest |x_i| = 1.
-        x_radius: f64,
-        /// Supports examined.
-        supports: u64,
-        /// How many solutions there are, with another x.
-        others: usize,
-    },
+    #[error("{0}")]
+    NothingNear(Examined),
+}
+
+/// An interval of values, of which all solutions are known.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "no solution with value in [{lo:?}, {hi:?}] has x within {X_RADIUS:e} of this one (all \
+     {supports} supports examined exactly, {})",
+    others_text(*others)
+)]
+pub struct Examined {
+    /// Lower end.
+    pub lo: f64,
+    /// Upper end.
+    pub hi: f64,
+    /// Supports examined.
+    pub supports: u64,
+    /// How many solutions there are, all with another x.
+    pub others: usize,
+}
+
+fn others_text(others: usize) -> String {
+    match others {
+        0 => "there is none at all".to_string(),
+        n => format!("{n} found with another x"),
+    }
 }
 
 impl Refutation {
-    /// Of the reflected problem, as one of the problem.
+    /// Of the reflected problem, as one of the problem with this window.
     fn reflected(self, window: RealWindow) -> Refutation {
         match self {
             Refutation::ZeroX | Refutation::NegativeX { .. } => self,
@@ -119,56 +129,28 @@ impl Refutation {
                 value: -value,
                 window,
             },
-            Refutation::NothingNear {
-                lo,
-                hi,
-                x_radius,
-                supports,
-                others,
-            } => Refutation::NothingNear {
-                lo: -hi,
-                hi: 0.0 - lo,
-                x_radius,
-                supports,
-                others,
-            },
+            Refutation::NothingNear(examined) => Refutation::NothingNear(Examined {
+                lo: -examined.hi,
+                hi: 0.0 - examined.lo, // no -0.0
+                ..examined
+            }),
         }
     }
 
     /// Of values on both sides of 0.
     fn and(self, other: Refutation) -> Refutation {
         match (self, other) {
-            (
-                Refutation::NothingNear {
-                    lo,
-                    hi,
-                    x_radius,
-                    supports,
-                    others,
-                },
-                Refutation::NothingNear {
-                    lo: other_lo,
-                    hi: other_hi,
-                    others: more,
-                    ..
-                },
-            ) => Refutation::NothingNear {
-                lo: lo.min(other_lo),
-                hi: hi.max(other_hi),
-                x_radius,
-                supports,
-                others: others + more,
-            },
-            (near @ Refutation::NothingNear { .. }, _) => near,
+            (Refutation::NothingNear(here), Refutation::NothingNear(there)) => {
+                Refutation::NothingNear(Examined {
+                    lo: here.lo.min(there.lo),
+                    hi: here.hi.max(there.hi),
+                    supports: here.supports,
+                    others: here.others + there.others,
+                })
+            }
+            (near @ Refutation::NothingNear(_), _) => near,
             (_, other) => other,
         }
-    }
-}
-
-fn others_text(others: usize) -> String {
-    match others {
-        0 => "there is none at all".to_string(),
-        n => format!("{n} found with another x"),
     }
 }
 

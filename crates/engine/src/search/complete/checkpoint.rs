@@ -9,12 +9,13 @@
 //!
 //! Called by `rounds`; `tree` and `splice` hand over the copies.
 
-use super::audited::{Audited, audited};
+use super::audited::audited;
 use super::region::Item;
 use super::splice::numbered;
 use crate::analysis::ProofCertificate;
 use crate::certify::certificate;
 use crate::run::{Keeper, Kept};
+use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node};
 use mceip_model::Problem;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -214,17 +215,17 @@ impl Checkpoints<'_> {
 
         // What is refused as a whole here is searched again in the rounds to come.
         if let Ok(audited) = audited(certificate, self.problem) {
-            keep_solutions(&self.keeper, self.problem, &audited);
+            keep_solutions(&self.keeper, self.problem, &audited.proved);
         }
     }
 }
 
 /// Hands over what a search has proved so far.
-pub(super) fn keep_solutions(keeper: &Keeper<'_>, problem: &Problem, audited: &Audited) {
+pub(super) fn keep_solutions(keeper: &Keeper<'_>, problem: &Problem, proved: &Proved<Certificate>) {
     keeper.hand_over(&Kept {
         name: "",
         problem,
-        certificate: &ProofCertificate::Solutions(audited.proved.clone()),
+        certificate: &ProofCertificate::Solutions(proved.clone()),
     });
 }
 

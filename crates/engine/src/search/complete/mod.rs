@@ -58,13 +58,14 @@ use crate::certify::certificate;
 use crate::run::{Watch, in_threads};
 use accepted_x::{accepted_x, claim_about, support_leaves};
 use audited::{Audited, audited};
+use checkpoint::keep_solutions;
 use given::Given;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Piece};
 use mceip_check::{AcceptedClaim, AcceptedCover, Proved, check};
 use mceip_model::file::Number;
 use mceip_model::reduction::reduce;
 use mceip_model::{Pencil, Problem};
-use pieces::anchor::CLOSER;
+use pieces::anchor::{CLOSER, OF_WINDOW};
 use pieces::prepared::Prepared;
 use rounds::{Rounds, is_open_below, values_met};
 
@@ -158,8 +159,11 @@ pub fn complete(
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
-    let prepare = || Prepared::new(problem, &pencil, options.pieces);
-    let mut prepared = in_threads(options.threads, prepare)?;
+    let prepare = |precisions| {
+        let prepare = || Prepared::new(problem, &pencil, options.pieces, precisions);
+        in_threads(options.threads, prepare)
+    };
+    let prepared = prepare(OF_WINDOW)?;
     if options.shard.is_none()
         && let Some(completed) = by_definiteness(problem, &pencil, &prepared)?
     {
@@ -167,27 +171,40 @@ pub fn complete(
     }
 
     let given = Given::new(problem, &pencil);
-    if prepared.is_expanded() {
-        prepared = with_fine_anchors(&given, prepared, options, watch);
+    let may_be_closer = prepared.is_expanded()
+        && pencil.free().len() <= MOST_FREE_OF_CLOSER
+        && options.shard.is_none();
+    let found = search(&given, prepared, options, watch)?;
+    if !may_be_closer || found.is_complete() || watch.is_cancelled() {
+        return Ok(found);
     }
 
-    let is_expanded = prepared.is_expanded();
-    let start = with_set(problem, prepared.open_set());
-    let mut found = run(&given, prepared, start, options, watch)?;
-    let is_small = pencil.free().len() <= MOST_FREE_OF_CLOSER;
-    let may_be_closer = is_expanded && is_small && options.shard.is_none();
-    if may_be_closer && !found.is_complete() && !watch.is_cancelled() {
-        let prepare = || Prepared::closer(problem, &pencil, options.pieces, CLOSER);
-        let prepared = in_threads(options.threads, prepare)?;
-        let prepared = with_fine_anchors(&given, prepared, options, watch);
-        let start = with_set(problem, prepared.open_set());
-        // What is found already stays on the disk until there is something better.
-        let closer = run(&given, prepared, start, options, &watch.kept_by(None))?;
-        if closer.is_complete() {
-            found = closer;
-        }
+    // What is found stays on the disk until there is something better.
+    if let Some(keeper) = watch.keeper() {
+        keep_solutions(&keeper, problem, &found.proved);
     }
-    Ok(found)
+    let closer = prepare(CLOSER)
+        .and_then(|prepared| search(&given, prepared, options, &watch.kept_by(None)));
+    Ok(match closer {
+        Ok(closer) if closer.is_complete() => closer,
+        // Also where longer anchors are beyond a limit of the checker.
+        _ => found,
+    })
+}
+
+/// Searches the whole window.
+fn search(
+    given: &Given<'_>,
+    mut prepared: Prepared,
+    options: &CompleteOptions,
+    watch: &Watch<'_>,
+) -> Result<Completed, CompleteError> {
+    if prepared.is_expanded() {
+        prepared = with_fine_anchors(given, prepared, options, watch);
+    }
+
+    let start = with_set(given.problem, prepared.open_set());
+    run(given, prepared, start, options, watch)
 }
 
 /// Free variables up to which a window that stays open is searched again with closer anchors, which

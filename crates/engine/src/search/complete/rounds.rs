@@ -80,7 +80,7 @@ impl Rounds<'_> {
         if let Some(keeper) = watch.keeper()
             && begun.elapsed() >= keeper.every
         {
-            keep_solutions(&keeper, self.given.problem, audited);
+            keep_solutions(&keeper, self.given.problem, &audited.proved);
         }
     }
 

@@ -73,18 +73,6 @@ impl Prepared {
         problem: &Problem,
         pencil: &Pencil,
         count: usize,
-    ) -> Result<Prepared, CompleteError> {
-        Prepared::closer(problem, pencil, count, OF_WINDOW)
-    }
-
-    /// The same with other precisions.
-    ///
-    /// # Errors
-    /// As [`Prepared::new`].
-    pub(crate) fn closer(
-        problem: &Problem,
-        pencil: &Pencil,
-        count: usize,
         precisions: Precisions,
     ) -> Result<Prepared, CompleteError> {
         let definite = DefinitePencils::own(pencil);
@@ -587,7 +575,7 @@ mod tests {
     fn the_lower_end_gets_an_anchor_and_a_piece_of_the_first_one() {
         let window = Window::all();
         let pencil = small_pencil();
-        let coarse = Prepared::new(&lambda2_problem(), &pencil, 16).unwrap();
+        let coarse = Prepared::new(&lambda2_problem(), &pencil, 16, OF_WINDOW).unwrap();
         let coarse_count = anchor_centers(&coarse).len();
         assert_eq!(coarse.count_of_lower_pieces(&window), 1);
 
@@ -609,7 +597,7 @@ mod tests {
         let problem = lambda2_problem();
         let values = [0.5 * SHARED_ANCHOR, 0.2];
 
-        let coarse = Prepared::new(&problem, &pencil, 16).unwrap();
+        let coarse = Prepared::new(&problem, &pencil, 16, OF_WINDOW).unwrap();
         let coarse_count = anchor_centers(&coarse).len();
         let apart = coarse.clone().refined(&problem, &pencil, &values);
         assert_centers(&anchor_centers(&apart)[coarse_count..], &values);
