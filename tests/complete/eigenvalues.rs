@@ -7,6 +7,9 @@ use crate::cover::disagreements;
 use mceip::{Matrix, Problem, check};
 use mceip_check::certificate::Certificate;
 use mceip_check::{Accepted, Reason};
+use mceip_engine::analysis::ProofCertificate;
+use mceip_engine::run::{Keeper, OnProof, Watch};
+use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Body, Pencil, RealWindow, Unknown, Window};
 use mceip_oracle::{Enumeration, enumerate};
@@ -15,6 +18,8 @@ use mceip_testkit::pareto::pareto_matrices;
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::time::Duration;
 
 /// The eigenvalue problem of a pencil.
 fn posed(body: Body, window: &RealWindow) -> Problem {
@@ -140,6 +145,32 @@ fn little_stays_open_of_larger_quadratic_pencils() {
     }
     println!("{complete:?}");
     assert!(complete.len() >= 9, "{complete:?}");
+}
+
+/// A window that stays open is searched twice. What the first search has found is handed over
+/// before the second begins, however short it was: a kill does not lose it.
+#[test]
+fn what_the_first_search_found_is_kept_while_the_second_goes_on() {
+    let mut rng = mceip_testkit::generators::rng(45, 2);
+    let quadratic = quadratic(&mut rng, 0, 8).unwrap();
+    let body = Body::Quadratic(quadratic);
+    let problem = mceip_model::Problem::new(body, Unknown::Eigenvalue, Window::all()).unwrap();
+
+    let kept = Mutex::new(Vec::new());
+    let keep: &OnProof<'_> = &|proved| {
+        let ProofCertificate::Solutions(proved) = proved.certificate else {
+            panic!("a complete set")
+        };
+        kept.lock().unwrap().push(proved.clone());
+    };
+    let keeper = Keeper::new(Duration::from_secs(3600), keep);
+    let watch = Watch::nobody().kept_by(Some(keeper));
+    let found = complete(&problem, &CompleteOptions::default(), &watch).unwrap();
+
+    let kept = kept.into_inner().unwrap();
+    assert!(!found.is_complete() && !found.cover.solutions.is_empty());
+    assert_eq!(kept.len(), 1);
+    assert_eq!(kept[0].certificate(), found.proved.certificate());
 }
 
 /// 2,000 of them, of larger orders as well.
