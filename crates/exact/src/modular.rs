@@ -344,7 +344,7 @@ fn square_bits(row: &[(usize, Integer)]) -> u64 {
 }
 
 /// The number modulo p, between 0 and p - 1.
-fn residue(value: &Integer, p: u64) -> u64 {
+pub(super) fn residue(value: &Integer, p: u64) -> u64 {
     value.mod_floor(&p.into()).to_u64().unwrap_or(0)
 }
 

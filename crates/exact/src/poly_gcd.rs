@@ -10,10 +10,17 @@
 //! which p does not vanish it loses as many sign changes as p has distinct roots there (Sturm 1829;
 //! Basu, Pollack and Roy, Algorithms in Real Algebraic Geometry, theorem 2.62).
 //!
+//! Most pairs of polynomials have no common factor, and most of those have none modulo a prime
+//! either, where the sequence takes machine integers ([`have_no_common_factor_modulo`]).
+//!
 //! Called by `algebraic` (gcd, remainders), `roots` (chains) and `kernel` (exact quotients).
 
-use super::{Integer, Poly, Rational};
+use super::modular::residue;
+use super::{Field, Integer, Poly, Rational};
 use num_traits::{Signed, Zero};
+
+/// The Mersenne prime 2^61 - 1.
+const PRIME: u64 = (1 << 61) - 1;
 
 /// A divisor with the sign and the absolute value of its leading coefficient.
 struct Divisor<'a> {
@@ -115,6 +122,10 @@ impl Poly {
 
     /// Primitive greatest common divisor (primitive remainder sequence); contents are ignored.
     pub fn gcd(&self, other: &Poly) -> Poly {
+        if have_no_common_factor_modulo(PRIME, self, other) {
+            return Poly::from_ints(&[1]);
+        }
+
         let mut a = self.primitive();
         let mut b = other.primitive();
 
@@ -152,6 +163,61 @@ impl Poly {
         }
 
         chain
+    }
+}
+
+/// Whether a and b are seen to be coprime over Q by their residues modulo a prime p.
+///
+/// A common factor h of positive degree, taken primitive, divides both over Z (Gauss's lemma). Its
+/// lead divides that of a. So where p does not divide the lead of a, h keeps its degree modulo p
+/// and divides both residues, which then have a common factor too. `false` says nothing.
+fn have_no_common_factor_modulo(p: u64, a: &Poly, b: &Poly) -> bool {
+    let field = Field::new(p);
+    let [mut a, mut b] = [a, b].map(|poly| residues(poly, &field));
+
+    // Without this `true` could be wrong.
+    let keeps_its_degree = a.last().is_some_and(|lead| *lead != 0);
+    if !keeps_its_degree {
+        return false;
+    }
+
+    loop {
+        // The lead of a is not zero.
+        while b.last() == Some(&0) {
+            b.pop();
+        }
+        match b.len() {
+            0 => return a.len() == 1,
+            1 => return true,
+            _ => {}
+        }
+        if a.len() >= b.len() {
+            reduce_modulo(&mut a, &b, &field);
+        }
+        std::mem::swap(&mut a, &mut b);
+    }
+}
+
+/// The coefficients of a polynomial modulo the prime of a field.
+fn residues(poly: &Poly, field: &Field) -> Vec<u64> {
+    poly.coeffs()
+        .iter()
+        .map(|c| field.enter(residue(c, field.prime())))
+        .collect()
+}
+
+/// Leaves the remainder of `a` by `b`, whose lead is not zero; it may end in zeros.
+fn reduce_modulo(a: &mut Vec<u64>, b: &[u64], field: &Field) {
+    let length = b.len();
+    let inverse_of_lead = field.invert(b[length - 1]);
+
+    while a.len() >= length {
+        let shift = a.len() - length;
+        let factor = field.mul(a[a.len() - 1], inverse_of_lead);
+        for (entry, divisor_entry) in a[shift..].iter_mut().zip(b) {
+            *entry = field.sub(*entry, field.mul(factor, *divisor_entry));
+        }
+        a.pop();
     }
 }
 
@@ -193,6 +259,30 @@ mod tests {
         assert_eq!(pq.exact_div(&r), None);
         assert_eq!(p.exact_div(&Poly::default()), None);
         assert_eq!((&pq * &p).squarefree(), pq);
+    }
+
+    /// t - 1 and t - 4 are one polynomial modulo 3, and 3 t + 1 loses its degree there.
+    #[test]
+    fn coprime_modulo_a_prime_says_coprime_and_nothing_else() {
+        let seen = |p, a: &[i64], b: &[i64]| {
+            have_no_common_factor_modulo(p, &Poly::from_ints(a), &Poly::from_ints(b))
+        };
+
+        assert!(seen(PRIME, &[-1, 1], &[-4, 1]));
+        assert!(seen(PRIME, &[-2, 0, 1], &[5]));
+        assert!(seen(3, &[1, 0, 1], &[2, 1]));
+        assert!(seen(7, &[5], &[]));
+
+        assert!(!seen(PRIME, &[-2, 0, 1], &[0, -2, 0, 1]));
+        assert!(!seen(PRIME, &[-2, 0, 1], &[]));
+        assert!(!seen(PRIME, &[], &[1]));
+        assert!(!seen(3, &[-1, 1], &[-4, 1]));
+        assert!(!seen(3, &[1, 3], &[1, 3]));
+        assert!(!seen(3, &[1, 3], &[1, 1, 3]));
+        assert_eq!(
+            Poly::from_ints(&[1, 3]).gcd(&Poly::from_ints(&[4])),
+            Poly::from_ints(&[1])
+        );
     }
 
     #[test]
