@@ -120,7 +120,7 @@ fn divided(p: &Poly, factor: &Poly, content: &Integer) -> Poly {
     }
 }
 
-/// An extreme mu >= 0 with mu'G = 0 at a value that is not zero on the first `strict` rows.
+/// An extreme mu >= 0 with mu'G = 0 at a value, not zero on all of the first `strict` rows.
 /// `dimension` is the number of columns of G.
 pub(super) fn circuit_at(
     rows: &[Vec<Poly>],
@@ -128,6 +128,10 @@ pub(super) fn circuit_at(
     dimension: usize,
     value: &mut Algebraic,
 ) -> Option<Vec<Poly>> {
+    if dimension == 1 {
+        return circuit_of_column(rows, strict, value);
+    }
+
     let mut conditions: Vec<Vec<Poly>> = Vec::new();
     for k in 0..dimension {
         let column: Vec<Poly> = rows.iter().map(|row| row[k].clone()).collect();
@@ -147,6 +151,38 @@ pub(super) fn circuit_at(
         if is_strict {
             return Some(value.reduce(&mu));
         }
+    }
+
+    None
+}
+
+/// The same for one column g: a unit vector where a strict g_i is zero, else positive entries at
+/// two rows in which g has opposite signs.
+fn circuit_of_column(
+    rows: &[Vec<Poly>],
+    strict: usize,
+    value: &mut Algebraic,
+) -> Option<Vec<Poly>> {
+    let signs: Vec<Sign> = rows.iter().map(|row| value.sign_of(&row[0])).collect();
+    if let Some(i) = signs[..strict].iter().position(|sign| *sign == Sign::Zero) {
+        return Some(unit(rows.len(), i));
+    }
+
+    for i in 0..strict {
+        let is_opposite = |sign: &Sign| *sign != Sign::Zero && *sign != signs[i];
+        let Some(k) = signs.iter().position(is_opposite) else {
+            continue;
+        };
+        // |g_k| g_i + |g_i| g_k = 0.
+        let mut mu = vec![Poly::default(); rows.len()];
+        for [own, other] in [[i, k], [k, i]] {
+            let g = &rows[other][0];
+            mu[own] = match signs[other] {
+                Sign::Negative => -g,
+                Sign::Zero | Sign::Positive => g.clone(),
+            };
+        }
+        return Some(value.reduce(&mu));
     }
 
     None
@@ -204,5 +240,34 @@ pub(super) fn generic_ray(
         0 => None,
         1.. => Some(ray.clone()),
         _ => Some(negated(ray)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::nonnegative_roots;
+
+    /// A column at sqrt 2, and the mu that is expected of it; the first two rows are strict.
+    #[track_caller]
+    fn assert_circuit(column: [&[i64]; 3], expected: Option<[&[i64]; 3]>) {
+        let mut sqrt_2 = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
+        let rows = column.map(|g| vec![Poly::from_ints(g)]);
+        let mu = circuit_at(&rows, 2, 1, &mut sqrt_2);
+        let expected = expected.map(|mu| mu.map(Poly::from_ints).to_vec());
+        assert_eq!(mu, expected);
+    }
+
+    #[test]
+    fn a_circuit_of_one_column_is_a_zero_or_two_signs() {
+        let (above, below): (&[i64], &[i64]) = (&[-1, 1], &[-2, 1]); // t - 1 > 0 > t - 2
+        let zero: &[i64] = &[-2, 0, 1];
+
+        assert_circuit([above, zero, below], Some([&[], &[1], &[]]));
+        assert_circuit([above, above, below], Some([&[2, -1], &[], &[-1, 1]]));
+        assert_circuit([below, above, above], Some([&[-1, 1], &[2, -1], &[]]));
+        // Every row is satisfied by one z, or only rows that are not strict contradict it.
+        assert_circuit([above, above, zero], None);
+        assert_circuit([below, below, below], None);
     }
 }

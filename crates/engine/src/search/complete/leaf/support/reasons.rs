@@ -142,11 +142,10 @@ impl Supported {
             return Some(regular.weights.clone());
         }
 
-        let matrix = self.block(&self.active, &self.active);
-        let mut basis = kernel_at(matrix, value);
-        for vector in &mut basis {
-            *vector = value.reduce(vector);
-        }
+        let basis = match self.null_vector_at(value) {
+            Some(vector) => vec![vector],
+            None => self.null_vectors_at(value),
+        };
 
         // One scale for all: mu and the basis refer to it.
         let rows = self.signed_rows(&basis);
@@ -158,6 +157,28 @@ impl Supported {
             Some(x) => self.member_at(&x, &kernel, &cone, value),
             None => self.weights_at(&kernel, value),
         }
+    }
+
+    /// The null vector of a regular pencil on the active rows at a root of its determinant, up to
+    /// a factor: the cofactors of the first row. `None` if all of them vanish there, because the
+    /// other rows are dependent.
+    fn null_vector_at(&self, value: &mut Algebraic) -> Option<Vec<Poly>> {
+        self.regular.as_ref()?;
+        let active = &self.active;
+        let blocks = [&self.a, &self.b].map(|matrix| submatrix(matrix, active, active));
+        let cofactors = value.reduce(&first_row_cofactors(&blocks));
+        let is_any = cofactors.iter().any(|c| value.sign_of(c) != Sign::Zero);
+        is_any.then_some(cofactors)
+    }
+
+    /// A basis of the kernel on the active rows.
+    fn null_vectors_at(&self, value: &mut Algebraic) -> Vec<Vec<Poly>> {
+        let mut basis = kernel_at(self.block(&self.active, &self.active), value);
+        for vector in &mut basis {
+            *vector = value.reduce(vector);
+        }
+
+        basis
     }
 
     /// A solution at a value. `cone` holds all z with G z >= 0 there.
