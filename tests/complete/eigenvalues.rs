@@ -324,3 +324,60 @@ fn another_unknown_is_another_problem() {
 fn minus_two() -> Sparse {
     Sparse::from_ints(&[&[-2]])
 }
+
+/// R (I - x x' / x'x) with x > 0, rounded: a value within rounding of 0, whose sign doubles do not
+/// tell. One side of 0 has it, the other one has none, and both are proved. (The one that is left
+/// over has two values close together elsewhere.)
+#[test]
+fn a_value_next_to_0_leaves_neither_side_open() {
+    const ORDER: usize = 12;
+    let mut complete = 0;
+    for seed in 0..14 {
+        let mut rng = mceip_testkit::generators::rng(46, seed);
+        let x: Vec<f64> = (0..ORDER).map(|_| rng.random_range(0.5..1.5)).collect();
+        let square: f64 = x.iter().map(|x_i| x_i * x_i).sum();
+        let mut rows = Vec::new();
+        for _ in 0..ORDER {
+            let row: Vec<f64> = (0..ORDER).map(|_| rng.random_range(-1.0..1.0)).collect();
+            let product: f64 = row.iter().zip(&x).map(|(r, x_i)| r * x_i).sum();
+            let singular = row
+                .iter()
+                .zip(&x)
+                .map(|(r, x_i)| r - product / square * x_i);
+            rows.push(singular.collect::<Vec<f64>>());
+        }
+
+        let a = Matrix::from_rows(&rows).unwrap();
+        let problem = Problem::eicp(a, Matrix::identity(ORDER)).unwrap();
+        let found = problem.complete().run().unwrap();
+        let solutions = found.solutions().iter();
+        let next_to_0 = solutions.filter(|solution| solution.value.abs() < 1e-12);
+
+        assert_eq!(next_to_0.count(), 1, "seed {seed}");
+        complete += usize::from(found.is_complete());
+    }
+
+    assert!(complete >= 13, "{complete}");
+}
+
+/// With C = diag(0, 1, 1, 1) a null vector of C stands at infinity, and one reversed anchor is not
+/// narrow enough on the way there: exact arithmetic closes whole pieces, not hundreds of parts.
+#[test]
+fn a_singular_leading_matrix_is_closed_by_few_leaves() {
+    for seed in 0..4 {
+        let mut rng = mceip_testkit::generators::rng(47, seed);
+        let mut drawn = || {
+            let rows = (0..4).map(|_| (0..4).map(|_| rng.random_range(-1.0..1.0)).collect());
+            let rows: Vec<Vec<f64>> = rows.collect();
+            Matrix::from_rows(&rows).unwrap()
+        };
+        let (a, b) = (drawn(), drawn());
+        let c = Sparse::from_entries(4, 4, (1..4).map(|i| (i, i, whole(1))));
+        let problem = Problem::qeicp(a, b, c.into()).unwrap();
+        let found = problem.complete().run().unwrap();
+
+        assert!(found.is_complete(), "seed {seed}");
+        let leaves = found.proved().accepted().cover.as_ref().unwrap().leaves;
+        assert!(leaves < 1_000, "seed {seed}: {leaves}");
+    }
+}

@@ -5,6 +5,9 @@
 //! (`pieces::precise_anchor`), the null vector of the pencil condensed with it is computed in long
 //! numbers, and the checker, whose arithmetic is exact, reads the signs off both.
 //!
+//! A null vector whose value lies next to a region, closer than doubles tell, leaves that region
+//! open as well. There the long numbers show that the region has none.
+//!
 //! Input: a cover that the checker has accepted, with open leaves. Output: the cover with `root`
 //! leaves in their place, for the checker to judge. Called by `rounds` at the end of a search.
 
@@ -26,7 +29,7 @@ use mceip_check::certificate::{
 use mceip_exact::{Rational, from_f64, to_f64};
 use num_traits::{Signed, Zero};
 
-/// Open regions that are looked at, at most: each costs a dense inverse.
+/// With more open regions than this none is looked at: each costs a dense inverse.
 const MAX_REGIONS: usize = 64;
 /// Bits of the null vector and of its value. Basis: the checker keeps 128 bits of each entry of the
 /// condensed pencil.
@@ -38,6 +41,11 @@ const INTERVAL_BITS: u32 = 96;
 /// lambda^2 is 2^-20 of the scale, and an interval relative to it moves T by less than 2^-116,
 /// which the rounding of W hides.
 const LEAST_VALUE_BITS: u32 = 10;
+
+/// A region narrower than this share of the view's scale is looked at with this width, 2^-30.
+/// Basis: over a shorter way the slope of T is lost in doubles. What is unique over more is unique
+/// in it.
+const LEAST_WIDTH: f64 = 1.0 / (1_u64 << 30) as f64;
 
 /// Tangents at most, each at the value of the null vector of the one before.
 const TANGENTS: usize = 8;
@@ -170,12 +178,13 @@ impl LongSearch<'_> {
         long
     }
 
-    /// The only null vector of a decided region, and what its signs say.
+    /// The leaf of a decided region by the only null vector that is near: what its signs say if its
+    /// value lies in the region, `Absent` if the value lies outside. `None` if it is not decided.
     fn root(&self, region: &SearchRegion, anchor: &mut Option<Anchor>) -> Option<Root> {
         let view = self.view;
         let region_hi = region.hi.as_ref()?;
         let lo = to_f64(&region.lo);
-        let hi = to_f64(region_hi);
+        let hi = to_f64(region_hi).max(lo + LEAST_WIDTH * view.scale);
         let null = null_vector(self.expansion, &region.states, lo, hi)?;
         let unique = UniquenessWitness::of(&null, &self.expansion.ends(lo, hi))?;
 
@@ -186,6 +195,15 @@ impl LongSearch<'_> {
         };
         let precise = self.precise_null(candidate, &moving, anchor)?;
 
+        let variable = |(position, v)| (view.index[position], v);
+        let x: Vec<IndexedNumber> = precise.x.into_iter().map(variable).collect();
+        if precise.value < region.lo || precise.value > *region_hi {
+            let interval = [region.lo.clone(), region_hi.clone()];
+            let mut root = unique.witness(&view.index, interval, RootOutcome::Absent);
+            lengthen(&mut root, &x)?;
+            return Some(root);
+        }
+
         let half = half_width(&precise.value, view.scale)?;
         let begin = &precise.value - &half;
         let end = &precise.value + &half;
@@ -195,14 +213,13 @@ impl LongSearch<'_> {
             return None;
         }
 
-        let variable = |(position, v)| (view.index[position], v);
-        let x: Vec<IndexedNumber> = precise.x.into_iter().map(variable).collect();
         let mut y: Vec<IndexedNumber> = precise.y.into_iter().map(variable).collect();
         let vanishing = view.vanishing(&region.states);
         y.retain(|(i, _)| !vanishing.contains(i));
 
         let mut root = unique.witness(&view.index, [begin, end], RootOutcome::Solution);
-        write_signs(&mut root, &x, &y)?;
+        let at_pivot = lengthen(&mut root, &x)?;
+        root.outcome = outcome(&divided(&x, &at_pivot), &divided(&y, &at_pivot));
         Some(root)
     }
 
@@ -250,13 +267,12 @@ impl LongSearch<'_> {
     }
 }
 
-/// Puts the long null vector x, scaled to 1 at the pivot, and what its signs and those of y say
-/// into a root; `None` where x is zero at the pivot.
-fn write_signs(root: &mut Root, x: &[IndexedNumber], y: &[IndexedNumber]) -> Option<()> {
+/// Puts the long null vector x, scaled to 1 at the pivot, into a root, and gives what x is there;
+/// `None` where that is zero.
+fn lengthen(root: &mut Root, x: &[IndexedNumber]) -> Option<Rational> {
     let at_pivot = x.iter().find(|(i, _)| *i == root.pivot);
     let scale = at_pivot.map(|(_, x)| x).filter(|x| !x.is_zero())?;
     let x = divided(x, scale);
-    let y = divided(y, scale);
 
     let more_bits = VECTOR_BITS - root.exponent;
     for u in &mut root.left {
@@ -269,8 +285,7 @@ fn write_signs(root: &mut Root, x: &[IndexedNumber], y: &[IndexedNumber]) -> Opt
         .map(|(_, v)| in_units(v, VECTOR_BITS.into()))
         .collect();
     root.exponent = VECTOR_BITS;
-    root.outcome = outcome(&x, &y);
-    Some(())
+    Some(scale.clone())
 }
 
 fn divided(list: &[IndexedNumber], scale: &Rational) -> Vec<IndexedNumber> {

@@ -95,11 +95,19 @@ impl Aim for Solutions<'_> {
             return;
         }
 
-        if region.cuts >= CUTS_BEFORE_EXACT && search.exact(region, share) {
+        // At the middle T is enclosed by its radius alone, which cuts hardly make smaller.
+        let is_held_up_by_radius = !here.middle.is_prunable && ends.r.is_some();
+        let asks_for_exact = is_held_up_by_radius || region.cuts >= CUTS_BEFORE_EXACT;
+        if asks_for_exact && search.exact(region, share) {
             return;
         }
 
-        if search.is_narrow(ends) || is_hopeless(region, ends, &here.middle) {
+        let max_cuts = if region.is_suspect || is_held_up_by_radius {
+            MAX_CUTS_SUSPECT
+        } else {
+            MAX_CUTS_DECIDED
+        };
+        if search.is_narrow(ends) || region.cuts >= max_cuts {
             return search.give_up(region, share);
         }
 
@@ -327,20 +335,6 @@ impl TreeSearch<'_, Solutions<'_>> {
             self.by_support(&child, 0.5 * share);
         }
     }
-}
-
-/// Are further cuts of a decided region in vain?
-fn is_hopeless(region: &SearchRegion, ends: &ChordEnds, middle: &MiddleTest) -> bool {
-    let max_cuts = if region.is_suspect {
-        MAX_CUTS_SUSPECT
-    } else {
-        MAX_CUTS_DECIDED
-    };
-
-    // The radius stands in the way, and a shorter interval has the same.
-    let is_held_up_by_radius =
-        !middle.is_prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT;
-    region.cuts >= max_cuts || is_held_up_by_radius
 }
 
 /// Both ends of the part on which the middle's witness works, if that is a good part of the
