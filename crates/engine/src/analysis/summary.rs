@@ -93,8 +93,16 @@ impl Analysis {
 
     /// Up to which mu stability is proved.
     fn stable_range(&self) -> Option<String> {
-        let to = down(&self.stability.as_ref()?.to);
-        Some(format!("It is stable for every mu above 0 up to {to}."))
+        let stability = self.stability.as_ref()?;
+        let to = down(&stability.to);
+        let of_which = if stability.is_of_every_motion {
+            ""
+        } else {
+            ", for motions that keep to the contact states"
+        };
+        Some(format!(
+            "It is stable for every mu above 0 up to {to}{of_which}."
+        ))
     }
 
     fn critical_bounds(&self) -> String {
