@@ -131,32 +131,35 @@ impl PictureFolders {
 #[cfg(feature = "png")]
 const ZOOM: f32 = 2.0;
 
-/// Levels of lambda^2: the lowest static frequency squared times 1.5^k, for k in this range.
+/// Levels of lambda^2 above 0: the lowest static frequency squared times 1.5^k, for k in this
+/// range.
 const LEVELS: std::ops::Range<i32> = -10..14;
 
 /// What to read off the points of the chart of lambda against mu.
 pub(super) const LEVELS_CAPTION: &str = "Points: every solution found at that \u{3bb}, from \
     the pencil condensed in doubles (measured, not certified).";
 
-/// Every solution of MCEIP-lambda2 at some levels of lambda^2 above 0, in doubles, level by level;
-/// as far as the work is not cancelled.
+/// Every solution of MCEIP-lambda2 at lambda^2 = 0 and at some levels above, in doubles, level by
+/// level; as far as the work is not cancelled.
 pub(super) fn levels_of(
     system: &System,
     watch: &Watch<'_>,
 ) -> Result<Vec<Vec<ChartPoint>>, CliError> {
     let condensation = SparseCondensation::of_system(system)?;
     let unit = static_frequency2(&condensation).unwrap_or(1.0);
-    let mut levels = Vec::with_capacity(LEVELS.len());
-    for (k, exponent) in LEVELS.enumerate() {
+    let mut values = vec![0.0];
+    values.extend(LEVELS.map(|exponent| unit * 1.5f64.powi(exponent)));
+
+    let count = values.len();
+    let mut levels = Vec::with_capacity(count);
+    for lambda2 in values {
         if watch.is_cancelled() {
             break;
         }
 
-        let number = k + 1;
-        let stage = format!("lambda against mu: level {number} of {}", LEVELS.len());
+        let number = levels.len() + 1;
+        let stage = format!("lambda against mu: level {number} of {count}");
         watch.report(&Progress::stage(&stage));
-
-        let lambda2 = unit * 1.5f64.powi(exponent);
         levels.push(level_points(&condensation, lambda2, watch)?);
     }
 

@@ -63,9 +63,9 @@ const WIDTH: f64 = 760.0;
 /// The band of ranges and its axis.
 const AREA: Rectangle = Rectangle {
     left: 40.0,
-    top: 110.0,
+    top: 122.0,
     right: WIDTH - 40.0,
-    bottom: 150.0,
+    bottom: 162.0,
 };
 
 /// Dashes of the outline of a sampled range.

@@ -89,12 +89,10 @@ pub(super) fn branches(
     }
 
     let contact_states = path.stretches[state.stretch].equilibrium_states();
-    let mut levels = vec![static_points(&state.thresholds)];
-    levels.extend(levels_of(&body.with_states(contact_states, None)?, watch)?);
-    let threshold = levels[0]
-        .iter()
-        .map(|point| point.mu)
-        .min_by(f64::total_cmp);
+    let mut levels = levels_of(&body.with_states(contact_states, None)?, watch)?;
+    let thresholds = state.thresholds.solutions.iter();
+    let threshold = thresholds.map(|solution| solution.value);
+    let threshold = threshold.min_by(f64::total_cmp);
     let asked = certified.iter().map(|point| point.mu);
     let known = asked.chain(threshold).chain([to_f64(&path.steps.friction)]);
     keep_below(&mut levels, 2.0 * known.fold(0.0, f64::max));
@@ -107,20 +105,6 @@ pub(super) fn branches(
             absent_below: None,
         },
     }))
-}
-
-/// The solutions of MCEIP-mu as points with lambda^2 = 0.
-fn static_points(thresholds: &ProvedSet) -> Vec<ChartPoint> {
-    let mut points = Vec::new();
-    for solution in &thresholds.solutions {
-        points.push(ChartPoint {
-            mu: solution.value,
-            lambda2: 0.0,
-            support: solution.moving.clone(),
-        });
-    }
-
-    points
 }
 
 /// The picture of a path.
