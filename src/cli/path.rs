@@ -130,6 +130,10 @@ pub(super) struct Args {
     /// run has left in the folder, each checked again.
     #[arg(long, requires_all = ["own_critical", "certificates"])]
     resume: bool,
+    /// Write the state, the displacement and the reaction of each candidate at both ends of each
+    /// stretch, as CSV.
+    #[arg(long, value_name = "OUT.csv")]
+    reactions: Option<PathBuf>,
     /// Draw resultants and states along the path, as SVG.
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
@@ -151,6 +155,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let loads = read_loads_of(&text("the loads", &args.file)?, &args.file)?;
     let at_mu = args.at_mu.iter().map(|mu| friction_of("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
+    let reactions = Output::prepare_if("reactions", args.reactions.as_deref(), input)?;
     let picture = Output::prepare_if("picture", args.picture.as_deref(), input)?;
     let report = Output::prepare_if("report", args.report.as_deref(), input)?;
     let has_places = loads.as_file().coordinates.is_some();
@@ -264,13 +269,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     // What cannot be written takes nothing else along.
     let states = folder.map_or(Ok(()), |folder| outcome.write_states(&folder));
+    let reactions = reactions.map_or(Ok(()), |file| file.write(&followed.reactions_csv()));
     let picture = picture.map_or(Ok(()), |picture| {
         picture.write(&pages::path_chart(&followed, &names).to_svg())
     });
 
     print_answer(args.json, || outcome.json(), || outcome.text())?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
-    states.and(picture).and(pages)?;
+    states.and(reactions).and(picture).and(pages)?;
     let code = exit_code(path, outcome.examined.as_ref(), outcome.is_interrupted);
     let is_open = |analysed: &PathAnalysis| analysed.is_undecided();
     if code == exit::DONE && outcome.analysed.as_ref().is_some_and(is_open) {

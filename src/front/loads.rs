@@ -361,6 +361,12 @@ impl LoadPath {
         say::path::text_of(self)
     }
 
+    /// What each candidate does at the beginning and at the end of each stretch, as CSV with a
+    /// heading: state, displacement and reaction in its own directions, in the units of the file.
+    pub fn reactions_csv(&self) -> String {
+        say::path::reactions_csv(self)
+    }
+
     /// The stretches in whose states nothing but the last digits of K holds the body: its path is
     /// exact, and worth nothing there. In doubles.
     pub fn held_by_rounding(&self) -> &[usize] {

@@ -343,6 +343,48 @@ fn equilibrium_json(at: &Equilibrium) -> Value {
     })
 }
 
+/// What each candidate does at the beginning and at the end of each stretch, a line each, as CSV.
+///
+/// `number` counts the candidates from 1, `stretch` the stretches from 0; `amount` is how much of
+/// the step's load is applied. `state` is that of the equilibrium at this end of the stretch.
+/// Displacements and reactions are in the directions of the candidate and in the units of the file:
+/// u_T and r_T along its tangent, u_N and r_N into the obstacle, r_N <= 0 in contact.
+pub(crate) fn reactions_csv(followed: &LoadPath) -> String {
+    let candidates = followed.loads().candidates();
+    let names = followed.loads().step_names();
+    let mut out = String::from("stretch,step,amount,number,candidate,state,u_T,u_N,r_T,r_N\n");
+
+    for (k, stretch) in followed.as_path().stretches.iter().enumerate() {
+        let step = csv_field(names[stretch.step]);
+        let ends = [Some(&stretch.start), stretch.stop.as_ref()];
+        for at in ends.into_iter().flatten() {
+            let amount = to_f64(at.amount());
+            let reactions = at.reactions_f64();
+            for (node, (r_t, r_n)) in reactions.into_iter().enumerate() {
+                let number = node + 1;
+                let candidate = csv_field(&candidate_name(candidates, node));
+                let state = at.contact_states()[node].directed_word();
+                let (u_t, u_n) = at.displacement(node);
+                let (u_t, u_n) = (to_f64(&u_t), to_f64(&u_n));
+                out += &format!(
+                    "{k},{step},{amount},{number},{candidate},{state},{u_t},{u_n},{r_t},{r_n}\n"
+                );
+            }
+        }
+    }
+
+    out
+}
+
+/// A text as a field of CSV, quoted as in RFC 4180.
+fn csv_field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.into()
+    }
+}
+
 /// The amount of the growing load at an equilibrium.
 pub(crate) fn amount_text(at: &Equilibrium) -> String {
     fixed_decimals(at.amount(), 9)

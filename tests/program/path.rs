@@ -3,7 +3,7 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{
-    decimal, example, exits, exits_with_json, names_in, read_json, refused, repository,
+    decimal, example, exits, exits_with_json, names_in, read, read_json, refused, repository,
 };
 use crate::program::Folder;
 use mceip::FrictionGrid;
@@ -46,6 +46,40 @@ fn pulled_point(friction: &str) -> Value {
             {"name": "pull", "forces": [[0, "70/9"]]},
         ],
     })
+}
+
+/// By hand: pressed with 4 and then pulled with f, the point (mu = 1) sticks with r = (-f, -4)
+/// until f = 4. Then u_T = 2 (f - 4) with r_T = r_N = 3 (f - 4) - 4, until f = 16/3 pulls it off
+/// the floor.
+#[test]
+fn the_table_of_reactions_is_that_by_hand() {
+    let folder = Folder::new();
+    let mut point = pulled_point("1");
+    point["system"]["candidates"][0]["name"] = json!("heel, \"left\"");
+    let file = folder.write("point.json", &point.to_string());
+    let table = folder.path("reactions.csv");
+    exits(0, &format!("path {file} --reactions {table}"));
+
+    let csv = read(&table);
+    let mut lines = csv.lines();
+    let heading = "stretch,step,amount,number,candidate,state,u_T,u_N,r_T,r_N";
+    assert_eq!(lines.next(), Some(heading));
+    let rows = [
+        r#"0,press,0,1,"heel, ""left""",zero,0,0,0,0"#,
+        r#"0,press,1,1,"heel, ""left""",stick,0,0,0,-4"#,
+        r#"1,pull,0,1,"heel, ""left""",stick,0,0,0,-4"#,
+        r#"1,pull,0.5142857142857142,1,"heel, ""left""",slip+,0,0,-4,-4"#,
+        r#"2,pull,0.5142857142857142,1,"heel, ""left""",slip+,0,0,-4,-4"#,
+        r#"2,pull,0.6857142857142857,1,"heel, ""left""",zero,2.6666666666666665,0,0,0"#,
+        r#"3,pull,0.6857142857142857,1,"heel, ""left""",zero,2.6666666666666665,0,0,0"#,
+        r#"3,pull,1,1,"heel, ""left""",free,5.4603174603174605,-2.0952380952380953,0,0"#,
+    ];
+    assert_eq!(lines.collect::<Vec<_>>(), rows);
+
+    refused(
+        &format!("path {file} --reactions {file}"),
+        &["--reactions", "another file than the input"],
+    );
 }
 
 /// The divergence and the states at each mu, by `path` at this mu alone and by hand: below 4/3 the
