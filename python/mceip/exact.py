@@ -80,6 +80,14 @@ def number_text(number: Fraction) -> str:
     return str(number) if is_short else f"a fraction of about 1e{magnitude(number) - 1:+d}"
 
 
+def short_text(number: Fraction) -> str:
+    """A number to ten digits."""
+    try:
+        return f"{float(number):.10g}"
+    except OverflowError:
+        return number_text(number)
+
+
 def decimal_text(digits: int, places: int) -> str:
     """digits / 10^places without zeros at its end."""
     number = Decimal(digits).scaleb(-places).normalize()

@@ -7,6 +7,7 @@ import os
 import warnings
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor, as_completed
+from fractions import Fraction
 from typing import Any
 
 from ._native import MceipError, NativeProblem
@@ -24,6 +25,7 @@ from .answers import (
     statement_of,
     two_lines,
 )
+from .exact import short_text
 from .inputs import (
     Contacts,
     Number,
@@ -360,8 +362,12 @@ class Problem:
         return Problem.from_json, (self.to_json(),)
 
     def __repr__(self) -> str:
+        friction = self._native.friction()
+        at = "" if friction is None else f", mu = {short_text(Fraction(friction))}"
+        sought = f"{self.unknown} in {self._native.window()}"
         return two_lines(
-            f"Problem of {self._native.kind()}; sought: {self.unknown}", f"sha256 {self.sha256}"
+            f"Problem of {self._native.kind()}{at}; sought: {sought}",
+            f"sha256 {self.sha256}",
         )
 
 

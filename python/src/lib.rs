@@ -196,6 +196,19 @@ impl NativeProblem {
         }
     }
 
+    /// The friction of a system, as a fraction, if its problem is about one.
+    fn friction(&self) -> Option<String> {
+        match self.0.as_model().body() {
+            Body::System(system) => system.friction().map(Rational::to_string),
+            Body::Pencil(_) | Body::Quadratic(_) => None,
+        }
+    }
+
+    /// Where values are sought, as text.
+    fn window(&self) -> String {
+        self.0.as_model().real_window().to_string()
+    }
+
     /// What looked wrong when the problem was made.
     fn warnings(&self) -> Vec<String> {
         self.0.warnings().to_vec()

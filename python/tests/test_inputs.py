@@ -249,7 +249,9 @@ def test_a_problem_survives_its_file(point, tmp_path):
 
     assert mceip.Problem.read(path).sha256 == problem.sha256
     assert pickle.loads(pickle.dumps(problem)).sha256 == problem.sha256
-    assert problem.sha256[:12] in repr(problem)
+    first, second = repr(problem).split("\n")
+    assert "contacts: 1, mu = 0.1; sought: lambda2 in [1/3, 5]" in first
+    assert problem.sha256[:12] in second
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,7 @@ def test_every_answer_has_two_lines_with_its_figures(shown):
         "presence": "of every member\n a solution with lambda^2 >= 0",
         "stability": "above 0 up to 0.6909\n of every motion",
         "members": "no divergence up to 0.650390625",
-        "problem": "degrees of freedom: 2, contacts: 1; sought: lambda2",
+        "problem": "contacts: 1, mu = 1.5; sought: lambda2 in [0, infinity)",
         "found": "2 solutions, certified: 2, 3",
         "set": "complete\n 2 solutions: 2, 3",
         "solution": "lambda2 in [1.99",
