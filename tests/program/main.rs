@@ -14,6 +14,7 @@ mod program;
 mod absence_cli;
 mod analyze;
 mod block;
+mod block_friction;
 mod campaign_cli;
 mod check_foreign;
 mod check_window;
