@@ -360,18 +360,23 @@ mod tests {
         quadrant.cover(&bound, &mut LastFamily::default()).unwrap()
     }
 
-    /// Interrupted while the checker reads a cover that it would accept: not proved, not refused.
-    #[test]
-    fn an_interrupted_check_says_nothing() {
+    /// Two particles with k = 1000 and these signs of slip.
+    fn stiff_pair(signs: (i8, i8)) -> System {
         let data = TwoParticles {
             c: rational(3, 5),
             s: rational(4, 5),
             k: whole(1000),
             m: whole(2),
             mu: whole(1),
-            signs: (1, 1),
+            signs,
         };
-        let system = two_particles(&data).unwrap();
+        two_particles(&data).unwrap()
+    }
+
+    /// Interrupted while the checker reads a cover that it would accept: not proved, not refused.
+    #[test]
+    fn an_interrupted_check_says_nothing() {
+        let system = stiff_pair((1, 1));
         assert!(matches!(cover(&system, 1.5, &[]), CoverOutcome::Absent(_)));
 
         let cancel = Cancel::new();
@@ -389,15 +394,7 @@ mod tests {
     /// A larger bound, nearer and farther places: what serves is kept, the rest made anew.
     #[test]
     fn one_condensation_serves_the_bounds_it_was_made_for() {
-        let data = TwoParticles {
-            c: rational(3, 5),
-            s: rational(4, 5),
-            k: whole(1000),
-            m: whole(2),
-            mu: whole(1),
-            signs: (1, 1),
-        };
-        let families = Families::of(&two_particles(&data).unwrap()).unwrap();
+        let families = Families::of(&stiff_pair((1, 1))).unwrap();
         let place = PrecisePlace {
             lambda2: 1.0,
             near: 0.1,
@@ -506,16 +503,7 @@ mod tests {
             ((1, -1), Some(1.36 / 0.48)),
             ((-1, 1), None),
         ] {
-            let data = TwoParticles {
-                c: rational(3, 5),
-                s: rational(4, 5),
-                k: whole(1000),
-                m: whole(2),
-                mu: whole(1),
-                signs,
-            };
-
-            let system = two_particles(&data).unwrap();
+            let system = stiff_pair(signs);
 
             match threshold {
                 Some(threshold) => {

@@ -156,26 +156,41 @@ mod tests {
     use super::super::Subproblem;
     use super::super::columns::PathFrame;
     use super::*;
-    use nalgebra::dmatrix;
+    use nalgebra::{DMatrix, dmatrix};
 
-    #[test]
-    fn updates_agree_with_factorisation_from_scratch() {
-        let m = dmatrix![2.0, 1.0; 1.0, 3.0];
-        let sub = Subproblem {
-            m: &m,
+    /// z >= 0 with m and q = (1, 1).
+    fn subproblem(m: &DMatrix<f64>) -> Subproblem<'_, f64> {
+        Subproblem {
+            m,
             q: &[1.0, 1.0],
             lower: &[0.0; 2],
             upper: &[f64::INFINITY; 2],
-        };
+        }
+    }
+
+    fn frame_of(sub: &Subproblem<'_, f64>) -> PathFrame<f64> {
         let mut frame = PathFrame::default();
-        frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
-        let columns = frame.columns(&sub);
+        frame.set(sub, &[0.0, 0.0], &[2.0, 3.0]);
+        frame
+    }
+
+    /// The basis of the slacks.
+    fn begun(columns: &PathColumns<'_, f64>) -> Basis<f64> {
         let mut basis = Basis {
             variables: vec![Variable::W(0), Variable::W(1)],
             ..Basis::default()
         };
+        assert!(basis.begin(columns));
+        basis
+    }
 
-        assert!(basis.begin(&columns));
+    #[test]
+    fn updates_agree_with_factorisation_from_scratch() {
+        let m = dmatrix![2.0, 1.0; 1.0, 3.0];
+        let sub = subproblem(&m);
+        let frame = frame_of(&sub);
+        let columns = frame.columns(&sub);
+        let mut basis = begun(&columns);
 
         let mut column = vec![0.0; 2];
         let mut row = Vec::new();
@@ -208,21 +223,10 @@ mod tests {
     #[test]
     fn a_basis_is_stale_after_its_updates() {
         let m = dmatrix![2.0, 1.0; 1.0, 3.0];
-        let sub = Subproblem {
-            m: &m,
-            q: &[1.0, 1.0],
-            lower: &[0.0; 2],
-            upper: &[f64::INFINITY; 2],
-        };
-        let mut frame = PathFrame::default();
-        frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
+        let sub = subproblem(&m);
+        let frame = frame_of(&sub);
         let columns = frame.columns(&sub);
-        let mut basis = Basis {
-            variables: vec![Variable::W(0), Variable::W(1)],
-            ..Basis::default()
-        };
-
-        assert!(basis.begin(&columns));
+        let mut basis = begun(&columns);
 
         let mut given = Vec::new();
         let mut column = vec![0.0; 2];
