@@ -6,7 +6,7 @@ use super::solution::Solution;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{AcceptedClaim, Proved};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{Certifier, certificate, of_negative_values};
+use mceip_engine::certify::{Certifier, of_negative_values};
 use mceip_engine::lean::elaborate_file;
 use mceip_engine::report::Listed;
 use mceip_engine::run::Watch;
@@ -82,7 +82,7 @@ fn certified(
     mut verdict: AcceptedClaim,
 ) -> Result<Certified, Error> {
     let mut listed = Listed::of_claim(&side.problem, &side.reduced, &claim);
-    let mut certificate = certificate(&side.problem, vec![claim]);
+    let mut certificate = Certificate::of_claims(&side.problem, vec![claim]);
     if side.problem.is_reflected() {
         verdict = verdict.reflected();
         listed = listed.reflected();

@@ -6,7 +6,7 @@
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{certificate, propose};
+use mceip_engine::certify::propose;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::to_f64;
@@ -47,7 +47,7 @@ fn exact(n: usize) -> Subject {
     for seed in 1.. {
         let problem = mechanical_pencil(n, Unknown::Mu, seed).unwrap();
         if let Some(claim) = exact_claim(&problem, n) {
-            let certificate = certificate(&problem, vec![claim]);
+            let certificate = Certificate::of_claims(&problem, vec![claim]);
             return Subject {
                 problem,
                 certificate,

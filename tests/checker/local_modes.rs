@@ -8,7 +8,7 @@
 use mceip_check::certificate::{Certificate, Claim, EnclosedSolution};
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{certificate, propose, sift};
+use mceip_engine::certify::{propose, sift};
 use mceip_engine::multistart::{MultistartFound, Search, multistart};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, complete};
@@ -77,7 +77,7 @@ fn a_local_mode_is_certified_and_accepted() {
     assert!(!claims.is_empty(), "{:?}", found.uncertified);
 
     let count = claims.len();
-    let accepted = check(&problem, &certificate(&problem, claims)).unwrap();
+    let accepted = check(&problem, &Certificate::of_claims(&problem, claims)).unwrap();
     assert_eq!(accepted.claims.len(), count);
 
     let mut supports = accepted.claims.iter().map(|claim| &claim.support);
@@ -100,7 +100,7 @@ fn a_tiny_component_of_a_mode_is_certified() {
     assert!(far.is_positive(), "{far}");
     assert!(*far < parse("1e-20").unwrap(), "{far}");
 
-    check(&problem, &certificate(&problem, vec![both])).unwrap();
+    check(&problem, &Certificate::of_claims(&problem, vec![both])).unwrap();
 }
 
 /// Order of the pencil of `coupled`, less one.

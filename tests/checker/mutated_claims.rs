@@ -11,7 +11,7 @@ use mceip_check::certificate::{
     Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
 };
 use mceip_check::check;
-use mceip_engine::certify::{certificate, flattened, lifted, propose};
+use mceip_engine::certify::{flattened, lifted, propose};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Sign, cleared, common_denominator, roots_in,
 };
@@ -47,9 +47,9 @@ impl Subject {
             if let (Body::System(system), Claim::ExactSolution(exact)) = (problem.body(), &claim) {
                 let motion = lifted(system, problem.unknown(), exact);
                 let claims = vec![Claim::LiftedSolution(motion)];
-                certificates.push(certificate(&problem, claims));
+                certificates.push(Certificate::of_claims(&problem, claims));
             }
-            certificates.push(certificate(&problem, vec![claim]));
+            certificates.push(Certificate::of_claims(&problem, vec![claim]));
         }
 
         Subject {

@@ -16,7 +16,7 @@ use crate::verified_checker::verdicts_on;
 use crate::{python_checker, verified_checker};
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Accepted, check};
-use mceip_engine::certify::{certificate, certify, lifted};
+use mceip_engine::certify::{certify, lifted};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, rational};
@@ -362,7 +362,7 @@ fn claimed(problem: &Problem) -> Option<Forgery> {
     }
     Some(Forgery {
         problem: problem.clone(),
-        text: certificate(problem, claims).to_json(),
+        text: Certificate::of_claims(problem, claims).to_json(),
     })
 }
 
@@ -388,7 +388,7 @@ fn lifted_claims(problem: &Problem) -> Option<Forgery> {
     }
     Some(Forgery {
         problem: problem.clone(),
-        text: certificate(problem, claims).to_json(),
+        text: Certificate::of_claims(problem, claims).to_json(),
     })
 }
 

@@ -5,8 +5,9 @@
 //! particles without their frame are shown to differ, so agreement is no accident.
 #![cfg(feature = "testkit")]
 
+use mceip_check::certificate::Certificate;
 use mceip_check::check;
-use mceip_engine::certify::{certificate, propose};
+use mceip_engine::certify::propose;
 use mceip_engine::multistart::{CondensedFound, CondensedSearch, all_slip, search_condensed};
 use mceip_engine::reduction::{CondensationError, SparseCondensation, condense};
 use mceip_engine::run::Watch;
@@ -348,7 +349,7 @@ fn check_solutions(problem: &Problem, found: &CondensedFound) -> mceip_check::Ac
     for solution in &found.solutions {
         claims.push(propose(&pencil, problem.window(), &solution.candidate).unwrap());
     }
-    check(problem, &certificate(problem, claims)).unwrap()
+    check(problem, &Certificate::of_claims(problem, claims)).unwrap()
 }
 
 /// Against the exact enumerator, on blocks it can take, with both masses.

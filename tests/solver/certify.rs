@@ -5,10 +5,10 @@
 //! have entries in decimals, some too small for a double to see.
 #![cfg(feature = "solver")]
 
-use mceip_check::certificate::Claim;
+use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{AcceptedClaim, check};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{AttemptFailure, certificate, propose};
+use mceip_engine::certify::{AttemptFailure, propose};
 use mceip_exact::{Sparse, parse, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use num_traits::Signed;
@@ -56,7 +56,7 @@ fn certify(pencil: &Pencil, unknown: Unknown, candidate: &Candidate) -> Certifie
 
     let body = Body::Pencil(pencil.clone());
     let problem = Problem::new(body, unknown, Window::all()).unwrap();
-    let certificate = certificate(&problem, vec![claim.clone()]);
+    let certificate = Certificate::of_claims(&problem, vec![claim.clone()]);
     let mut accepted = check(&problem, &certificate).unwrap();
 
     Certified {

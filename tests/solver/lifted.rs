@@ -6,7 +6,7 @@
 
 use mceip_check::certificate::{Certificate, Claim, ExactSolution};
 use mceip_check::{Accepted, Reason, check};
-use mceip_engine::certify::{certificate, flattened, lifted, propose};
+use mceip_engine::certify::{flattened, lifted, propose};
 use mceip_model::reduction::reduce;
 use mceip_model::{Pencil, Problem, Window};
 use mceip_oracle::{Solution, enumerate};
@@ -35,7 +35,7 @@ fn exact_claims(problem: &Problem) -> Vec<ExactSolution> {
 
 /// What the checker says of one claim.
 fn verdict(problem: &Problem, claim: Claim) -> Result<Accepted, Reason> {
-    let certificate = certificate(problem, vec![claim]);
+    let certificate = Certificate::of_claims(problem, vec![claim]);
     check(problem, &certificate).map_err(|rejection| rejection.reason)
 }
 
@@ -65,7 +65,7 @@ fn every_solution_of_random_systems_is_accepted_lifted_and_its_forgeries_are_not
             let claim = lifted(system, problem.unknown(), &exact);
             assert_eq!(flattened(system, &claim), exact, "{label}");
 
-            let own = certificate(problem, vec![Claim::LiftedSolution(claim)]);
+            let own = Certificate::of_claims(problem, vec![Claim::LiftedSolution(claim)]);
             let accepted = match check(problem, &own) {
                 Ok(accepted) => accepted,
                 Err(rejection) => panic!("{label}: {rejection}"),

@@ -7,9 +7,10 @@
 //! point may stand among its solutions.
 #![cfg(feature = "testkit")]
 
+use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, check};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{certificate, propose};
+use mceip_engine::certify::propose;
 use mceip_engine::multistart::{MultistartFound, Search, multistart};
 use mceip_engine::run::Watch;
 use mceip_engine::search::near::{Near, near};
@@ -173,7 +174,7 @@ fn above_the_threshold_everything_is_certified() {
             for solution in truth {
                 let candidate = in_doubles(&solution, &pencil.slip());
                 let claim = propose(&pencil, problem.window(), &candidate).unwrap();
-                let certificate = certificate(&problem, vec![claim]);
+                let certificate = Certificate::of_claims(&problem, vec![claim]);
                 let claims = check(&problem, &certificate).unwrap().claims;
                 assert_eq!(claims[0].support, solution.slip);
                 accepted += 1;
@@ -221,7 +222,7 @@ fn searched(problem: &Problem) -> Searched {
     );
     if claimed > 0 {
         let claims = found.certified.iter().map(|c| c.claim.clone()).collect();
-        let certificate = certificate(problem, claims);
+        let certificate = Certificate::of_claims(problem, claims);
         let accepted = check(problem, &certificate).unwrap().claims;
         assert!(accepted.iter().all(|claim| is_listed(claim, &truth)));
     }

@@ -6,8 +6,8 @@
 //! for (coverage, `crates/testkit/src/floors.rs`). Two tests check that failures shrink.
 #![cfg(feature = "testkit")]
 
+use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, check};
-use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{CertifiedCandidate, Search};
 use mceip_engine::run::Watch;
 use mceip_exact::{Rational, Sparse, rational, whole};
@@ -327,7 +327,7 @@ fn accepted_claims(
         return Ok(Vec::new());
     }
     let claims = certified.into_iter().map(|c| c.claim).collect();
-    let certificate = certificate(problem, claims);
+    let certificate = Certificate::of_claims(problem, claims);
 
     match check(problem, &certificate) {
         Ok(accepted) => Ok(accepted.claims),

@@ -6,10 +6,9 @@
 //! below that of the family `states`, the same systems without z.
 #![cfg(feature = "testkit")]
 
-use mceip_check::certificate::{Claim, EnclosedSolution};
+use mceip_check::certificate::{Certificate, Claim, EnclosedSolution};
 use mceip_check::check;
 use mceip_engine::certify::Preference;
-use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{
     CertifiedCandidate, MultistartFound, Search, exact_value, multistart, support,
 };
@@ -171,7 +170,7 @@ fn large_systems_are_certified_by_boxes() {
 /// The checker accepts the box, and not the same box about the other half of v_T.
 fn assert_the_other_half_is_refused(problem: &Problem, split: &Reduced, claim: &EnclosedSolution) {
     let good = Claim::EnclosedSolution(claim.clone());
-    let accepted = check(problem, &certificate(problem, vec![good]));
+    let accepted = check(problem, &Certificate::of_claims(problem, vec![good]));
     assert!(accepted.is_ok(), "{accepted:?}");
 
     for variables in &split.zero {
@@ -185,7 +184,7 @@ fn assert_the_other_half_is_refused(problem: &Problem, split: &Reduced, claim: &
         }
         if forged != *claim {
             let forged = Claim::EnclosedSolution(forged);
-            assert!(check(problem, &certificate(problem, vec![forged])).is_err());
+            assert!(check(problem, &Certificate::of_claims(problem, vec![forged])).is_err());
         }
     }
 }
@@ -202,7 +201,10 @@ fn the_floor_is_that_of_systems_without_zero_reaction_or_higher() {
 
 /// The checker accepts the claim, and refuses -x.
 fn assert_the_opposite_is_refused(problem: &Problem, claim: &Claim) {
-    let accepted = check(problem, &certificate(problem, vec![claim.clone()]));
+    let accepted = check(
+        problem,
+        &Certificate::of_claims(problem, vec![claim.clone()]),
+    );
     assert!(accepted.is_ok(), "{accepted:?}");
 
     let Claim::ExactSolution(mut opposite) = claim.clone() else {
@@ -211,7 +213,7 @@ fn assert_the_opposite_is_refused(problem: &Problem, claim: &Claim) {
     for coefficient in opposite.x.iter_mut().flatten() {
         coefficient.0 = -coefficient.0.clone();
     }
-    let forged = certificate(problem, vec![Claim::ExactSolution(opposite)]);
+    let forged = Certificate::of_claims(problem, vec![Claim::ExactSolution(opposite)]);
     assert!(check(problem, &forged).is_err());
 }
 

@@ -251,14 +251,8 @@ impl Proved<Certificate> {
             files.push(claims.by_ref().take(count).collect());
         }
 
-        let certificates = files.into_iter().map(|claims| Certificate {
-            problem_sha256: problem.sha256(),
-            unknown: problem.unknown(),
-            window: problem.window().clone(),
-            claims,
-            complete_set: None,
-            negative: None,
-        });
+        let files = files.into_iter();
+        let certificates = files.map(|claims| Certificate::of_claims(problem, claims));
         certificates.map(|c| Proved::new(problem, c)).collect()
     }
 }

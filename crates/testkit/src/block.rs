@@ -12,7 +12,6 @@ use super::verified::{VerifiedChecker, VerifiedCounts};
 use crate::error::TestkitError;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, Proved, Rejected, check};
-use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{Search, SearchError, multistart};
 use mceip_engine::reduction::condense;
 use mceip_engine::run::{Progress, Watch};
@@ -180,7 +179,7 @@ pub fn block_state(
     }
 
     let claims = found.certified.into_iter().map(|c| c.claim).collect();
-    let proved = match Proved::new(&problem, certificate(&problem, claims)) {
+    let proved = match Proved::new(&problem, Certificate::of_claims(&problem, claims)) {
         Ok(proved) => proved,
         Err(rejected) => {
             report.rejected.push(rejected);

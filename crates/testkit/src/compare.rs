@@ -22,7 +22,7 @@ use super::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Proved, check};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{Certifier, certificate};
+use mceip_engine::certify::Certifier;
 use mceip_engine::multistart::{
     MultistartFound, Origin, Search, SearchError, exact_value, integer_x, multistart, support,
 };
@@ -454,7 +454,7 @@ fn submit(
         return;
     }
 
-    let certificate = certificate(problem, claims.clone());
+    let certificate = Certificate::of_claims(problem, claims.clone());
     match Proved::claims(problem, claims) {
         Ok(files) => {
             for file in &files {

@@ -27,7 +27,7 @@ use super::forge::forgeries;
 use super::generators::matrix;
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
-use mceip_engine::certify::{certificate, propose};
+use mceip_engine::certify::propose;
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::reduction::reduce;
@@ -138,7 +138,7 @@ fn certificates(problem: &Problem) -> Vec<Certificate> {
         let candidate = in_doubles(solution, &slip);
         let claim = propose(&reduced.pencil, problem.window(), &candidate)
             .unwrap_or_else(|e| panic!("oracle's solution not certified: {e}"));
-        out.push(certificate(problem, vec![claim]));
+        out.push(Certificate::of_claims(problem, vec![claim]));
     }
     out
 }

@@ -13,7 +13,7 @@
 
 use mceip_exact::{Integer, Rational};
 use mceip_model::file::{Number, from_json_of, to_json_of};
-use mceip_model::{ModelError, RealWindow, Unknown, Window};
+use mceip_model::{ModelError, Problem, RealWindow, Unknown, Window};
 use serde::{Deserialize, Serialize};
 
 mod cover;
@@ -156,6 +156,18 @@ pub struct EnclosedSolution {
 }
 
 impl Certificate {
+    /// Claims about a problem in its window, and nothing else.
+    pub fn of_claims(problem: &Problem, claims: Vec<Claim>) -> Certificate {
+        Certificate {
+            problem_sha256: problem.sha256(),
+            unknown: problem.unknown(),
+            window: problem.window().clone(),
+            claims,
+            complete_set: None,
+            negative: None,
+        }
+    }
+
     /// The windows of its complete sets or, without any, of its claims: two where values of both
     /// signs are spoken of and 0 does not join them.
     pub fn windows(&self) -> Vec<RealWindow> {

@@ -32,14 +32,14 @@ pub use proposals::{
     ENCLOSED_ORDER, EXACT_BITS, EXACT_FIRST_ORDER, EXACT_ORDER, Preference, propose,
 };
 
-use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::certificate::Certificate;
 use mceip_check::{Proved, Rejected};
 use mceip_model::Problem;
 
 /// A certificate for the problem that says what one of the reflected problem says, of values below
 /// 0, and nothing else.
 pub fn of_negative_values(problem: &Problem, reflected: Certificate) -> Certificate {
-    certificate(problem, Vec::new()).with_negative(reflected)
+    Certificate::of_claims(problem, Vec::new()).with_negative(reflected)
 }
 
 /// The certificates for an eigenvalue problem, and those for its reflection, in as few files as
@@ -66,16 +66,4 @@ pub fn of_both_signs(
 
     files.extend(non_negative);
     Ok(files)
-}
-
-/// A certificate for the problem with the given claims and no complete set.
-pub fn certificate(problem: &Problem, claims: Vec<Claim>) -> Certificate {
-    Certificate {
-        problem_sha256: problem.sha256(),
-        unknown: problem.unknown(),
-        window: problem.window().clone(),
-        claims,
-        complete_set: None,
-        negative: None,
-    }
 }

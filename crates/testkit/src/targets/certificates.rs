@@ -10,7 +10,7 @@ use crate::completed::{holds_claim, is_claimed};
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Accepted, AcceptedCover, check};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{certificate, propose};
+use mceip_engine::certify::propose;
 use mceip_engine::foreign::{BadPoint, ForeignReport, Reported};
 use mceip_engine::multistart::support;
 use mceip_engine::run::Watch;
@@ -91,7 +91,7 @@ fn assert_certified_is_true(problem: &Problem, candidate: &Candidate) {
     };
 
     let support = support(&claim).to_vec();
-    match check(problem, &certificate(problem, vec![claim])) {
+    match check(problem, &Certificate::of_claims(problem, vec![claim])) {
         Ok(accepted) => assert_true(problem, &accepted),
         Err(e) => {
             panic!("certified from {candidate:?} with support {support:?}, and rejected: {e}")
@@ -250,7 +250,7 @@ pub fn certificate_seeds() -> Vec<String> {
             let candidate = in_doubles(solution, &slip);
             let claim = propose(&reduced.pencil, problem.window(), &candidate);
             let claims: Vec<Claim> = claim.into_iter().collect();
-            out.push(certificate(&problem, claims).to_json());
+            out.push(Certificate::of_claims(&problem, claims).to_json());
         }
     }
 

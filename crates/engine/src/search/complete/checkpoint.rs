@@ -13,7 +13,6 @@ use super::audited::audited;
 use super::region::Item;
 use super::splice::numbered;
 use crate::analysis::ProofCertificate;
-use crate::certify::certificate;
 use crate::run::{Keeper, Kept};
 use mceip_check::Proved;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node};
@@ -210,7 +209,7 @@ impl Checkpoints<'_> {
         let set = self.snapshots.cover(self.set, &mut claims);
         let certificate = Certificate {
             complete_set: Some(set),
-            ..certificate(self.problem, claims)
+            ..Certificate::of_claims(self.problem, claims)
         };
 
         // What is refused as a whole here is searched again in the rounds to come.

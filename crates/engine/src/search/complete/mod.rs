@@ -54,7 +54,6 @@ pub use error::CompleteError;
 pub use merge::merge;
 pub use options::{CompleteOptions, Shard};
 
-use crate::certify::certificate;
 use crate::run::{Watch, in_threads};
 use accepted_x::{accepted_x, claim_about, support_leaves};
 use audited::{Audited, audited};
@@ -306,7 +305,7 @@ fn by_definiteness(
 fn with_set(problem: &Problem, set: CompleteSet) -> Certificate {
     Certificate {
         complete_set: Some(set),
-        ..certificate(problem, Vec::new())
+        ..Certificate::of_claims(problem, Vec::new())
     }
 }
 
