@@ -24,6 +24,7 @@ from .exact import (
     interval_of,
     number_text,
     range_text,
+    short_text,
 )
 
 if TYPE_CHECKING:
@@ -563,7 +564,7 @@ class Analysis:
         return self.summary
 
     def __repr__(self) -> str:
-        friction = number_text(fraction_of(self.answer["friction"]))
+        friction = short_text(fraction_of(self.answer["friction"]))
         rates = listed([f"{mode.growth_rate:.6g} 1/s" for mode in self.modes])
         growing = f", growing at {rates}" if self.modes else ""
         return two_lines(

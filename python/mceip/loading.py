@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from ._native import MceipError, NativeLoadPath, NativeLoads
 from .answers import Analysis, Certificate, counted, indices, two_lines
-from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text
+from .exact import Interval, fraction_of, fraction_or_none, interval_of, number_text, short_text
 from .inputs import Contact, Number, Triplets, count, counts, plain_contact, spelt, triplets
 from .mesh import Mesh
 from .problem import Problem, text_of, warn_of
@@ -251,7 +251,7 @@ class LoadPath:
 
     def __repr__(self) -> str:
         count = counted(len(self.stretches), "stretch", "stretches")
-        return two_lines(f"LoadPath at mu = {number_text(self.friction)}, {count}", self.end)
+        return two_lines(f"LoadPath at mu = {short_text(self.friction)}, {count}", self.end)
 
 
 @dataclass(frozen=True)

@@ -252,6 +252,7 @@ def test_a_problem_survives_its_file(point, tmp_path):
     first, second = repr(problem).split("\n")
     assert "contacts: 1, mu = 0.1; sought: lambda2 in [1/3, 5]" in first
     assert problem.sha256[:12] in second
+    assert "mu = 0.1: absent" in repr(problem.analyze(samples=0))
 
 
 @pytest.mark.parametrize(
