@@ -1104,6 +1104,8 @@ fn the_report_draws_a_body_with_coordinates() {
         &html,
         &["left foot", "&lt;right&gt;", "Drawn: the mode times"],
     );
+    let rates = read(&format!("{figures}/lambda.svg"));
+    assert!(rates.contains("MCEIP-\u{3bc}, \u{3bb} = 0"), "{rates}");
 
     let plain = example("two-particles");
     let nowhere = format!("analyze {plain} --vtk {vtk}");

@@ -7,7 +7,7 @@
 //! `quadratic` (a + b sqrt d), `decimal` and `double` (for people and for solvers).
 //!
 //! Matrices over Q: `sparse` and `dense`, `definite` and `definite_short` (is a matrix positive
-//! definite?), `modular` and `prime` (Schur complements of large matrices).
+//! definite?), `modular` and `prime` (Schur complements of large matrices, modulo primes).
 //!
 //! The unknown t: `poly` and `poly_gcd` (`Z[t]`), `roots` (isolation of real roots), `algebraic`
 //! (signs at a root), `kernel` and `cofactor` (of A + tB), `cone` (polyhedral cones at a root).

@@ -4,7 +4,8 @@
 //! a b 2^128 / 2^64, needs no division by p. [`Field::enter`] and [`Field::leave`] go to this form
 //! and back; sums and differences are those of any residues.
 //!
-//! Called by `modular`, and by `path`, which lifts solutions of linear systems p-adically.
+//! Called by `modular` and `poly_gcd`, and by `path`, which lifts solutions of linear systems
+//! p-adically.
 
 /// A prime p < 2^62 with what Montgomery's product needs; numbers are kept in Montgomery form.
 #[derive(Debug, Clone)]

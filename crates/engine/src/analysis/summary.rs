@@ -94,14 +94,10 @@ impl Analysis {
     /// Up to which mu stability is proved.
     fn stable_range(&self) -> Option<String> {
         let stability = self.stability.as_ref()?;
-        let to = down(&stability.to);
-        let of_which = if stability.is_of_every_motion {
-            ""
-        } else {
-            ", for motions that keep to the contact states"
-        };
         Some(format!(
-            "It is stable for every mu above 0 up to {to}{of_which}."
+            "It is stable for every mu above 0 up to {}{}.",
+            down(&stability.to),
+            stability.of_which_motions()
         ))
     }
 

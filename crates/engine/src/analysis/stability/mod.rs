@@ -66,6 +66,15 @@ impl Stability {
             ", and keeps to the contact states"
         }
     }
+
+    /// The same behind a range of mu.
+    pub(super) fn of_which_motions(&self) -> &'static str {
+        if self.is_of_every_motion {
+            ""
+        } else {
+            ", for motions that keep to the contact states"
+        }
+    }
 }
 
 /// A certificate for as large a mu as is found; `None` where there is none.

@@ -59,9 +59,9 @@ struct OpenLeaf {
 
 /// What long numbers say of the open leaves of a piece.
 struct LongPiece {
-    /// The roots, each with its node.
+    /// The leaves that are decided, each with its node.
     roots: Vec<(usize, Root)>,
-    /// An anchor about their values, where there are free variables.
+    /// An anchor about the first value, where there are free variables.
     anchor: Option<Anchor>,
 }
 
@@ -132,7 +132,7 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
             let Some(region) = waiting.pop() else { break };
             if let Some(parts) = region.parts(what, view) {
                 waiting.extend(parts);
-            } else if *what == Node::Open && is_enclosed && may_have_root(&region) {
+            } else if *what == Node::Open && is_enclosed && can_be_looked_at(&region) {
                 leaves.push(OpenLeaf {
                     piece: k,
                     node,
@@ -147,7 +147,7 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
     leaves
 }
 
-fn may_have_root(region: &SearchRegion) -> bool {
+fn can_be_looked_at(region: &SearchRegion) -> bool {
     if region.hi.is_none() || !region.is_decided() {
         return false;
     }
@@ -164,7 +164,7 @@ struct LongSearch<'a> {
 }
 
 impl LongSearch<'_> {
-    /// The leaves that have a root, with an anchor about the value of the first of them.
+    /// The leaves that are decided, with an anchor about the first value that is found.
     fn piece<'l>(&self, leaves: impl Iterator<Item = &'l OpenLeaf>) -> LongPiece {
         let mut long = LongPiece {
             roots: Vec::new(),
