@@ -63,14 +63,10 @@ let spend_box ns box =
 
 (* Factors at the ends of the interval of mu, for the local or the condensed parts. *)
 let definite_box (plain, friction) diagonal region box =
-  let at e =
-    spend plain.Kernel.size_of;
-    match definite_leaf (Kernel.mixed e plain friction) diagonal region with
-    | Some (Kernel.Definite (d, low, high)) -> Some (d, (low, high))
-    | _ -> None in
-  match at box.low with
-  | None -> None
-  | Some (d, f) -> Option.map (fun (_, f') -> Kernel.BoxDefinite (d, f, f')) (at box.high)
+  let at e = spend plain.Kernel.size_of; Kernel.mixed e plain friction in
+  match definite_factors [at box.low; at box.high] diagonal region with
+  | Some (d, [low; high]) -> Some (Kernel.BoxDefinite (d, low, high))
+  | _ -> None
 
 (* A corner of a box: the enclosed pencil at an end of the interval of mu, an end of the interval of
    t, and the factor that both ends bring into its matrix. *)

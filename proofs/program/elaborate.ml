@@ -201,27 +201,67 @@ let one_for_each n weights =
   if List.compare_length_with weights n <> 0 then no_witness "a list of weights of another length";
   weights
 
-(* The weights of the kernel.  A factor common to all changes nothing; 2^64 makes the rounding of
-   the factor of a form small beside the least weight. *)
-let diagonal_weights n = function
-  | Identity -> []
-  | Opposite -> opposite n []
-  | Weighted d -> List.map (fun w -> Z.shift_left w 64) (one_for_each n d)
+(* The weights of the kernel, times 2^k: a factor common to all changes nothing, and makes the
+   rounding of the factor of a form small beside the least weight. *)
+let diagonal_weights n k = function
+  | Identity -> List.init n (fun _ -> two_to k)
+  | Opposite -> List.init n (fun _ -> Z.neg (two_to k))
+  | Weighted d -> List.map (fun w -> Z.shift_left w k) (one_for_each n d)
 
-let definite_leaf (p : Kernel.enclosed) diagonal (region : Kernel.region) =
-  let d = diagonal_weights p.size_of diagonal in
-  let active = Array.of_list (Kernel.active p region) in
-  let factor strict e =
-    let s = Array.map (fun i ->
-        Array.map (fun j -> Kernel.symmetric_part p d e i j) active) active in
-    match factor_rows strict s with
-    | None -> None
-    | Some rows ->
-      let f = { Kernel.weights = List.init (Array.length active) (fun _ -> Z.one);
-                factor_rows = Array.to_list (Array.map Array.to_list rows) } in
-      if Kernel.definite_end p d strict e region f then Some f else None in
-  match factor true region.lower, factor (Z.sign (snd region.upper) > 0) region.upper with
-  | Some low, Some high -> Some (Kernel.Definite (d, low, high))
+(* Ways to factors of a form: bits by which the weights are multiplied, and rows with weights. *)
+let factor_by_doubles strict s =
+  let with_ones rows = (List.map (fun _ -> Z.one) rows, rows) in
+  Option.to_list (Option.map (fun rows ->
+      with_ones (Array.to_list (Array.map Array.to_list rows))) (factor_rows strict s))
+
+(* L D L' of the form less 2^-margin of its largest entry, rounded.  L and D need some 4 margin bits
+   in all. *)
+let exact_bits = 2_048
+let exact_order = 12
+
+let factor_by_fractions strict s =
+  let n = Array.length s in
+  let top = Array.fold_left (Array.fold_left (fun m v -> max m (bits v))) 0 s in
+  let at_margin margin =
+    let off i j v = if i = j then Z.sub v (two_to (max 0 (top - margin))) else v in
+    let lowered = Array.mapi (fun i row -> Array.mapi (fun j v -> Q.of_bigint (off i j v)) row) s in
+    Option.map (fun (l, d) ->
+        let digits = margin + 64 in
+        let rounded shift v = Z.fdiv (Z.shift_left (Q.num v) shift) (Q.den v) in
+        let weight v = Z.shift_right (rounded 0 v) (2 * digits) in
+        let row l = Array.to_list (Array.map (rounded digits) l) in
+        (* G = L D L': a column of L for each weight. *)
+        (Array.to_list (Array.map weight d), Array.to_list (Array.map row l)))
+      (exact_ldl lowered) in
+  if n > exact_order || top = 0 && strict then []
+  else List.filter_map at_margin [16; 64; 128; 256; 400]
+
+(* Weights and, for each of these pencils, factors at both ends. *)
+let definite_factors pencils diagonal (region : Kernel.region) =
+  let by k find =
+    let order = (List.hd pencils).Kernel.size_of in
+    let d = diagonal_weights order k diagonal in
+    let factors (p : Kernel.enclosed) =
+      let active = Array.of_list (Kernel.active p region) in
+      let factor strict e =
+        let entry i j = Kernel.symmetric_part p d e i j in
+        let s = Array.map (fun i -> Array.map (entry i) active) active in
+        List.find_map (fun (weights, factor_rows) ->
+            let f = { Kernel.weights; factor_rows } in
+            if Kernel.definite_end p d strict e region f then Some f else None) (find strict s) in
+      match factor true region.lower with
+      | None -> None
+      | Some low ->
+        Option.map (fun high -> (low, high)) (factor (Z.sign (snd region.upper) > 0) region.upper) in
+    let found = List.map factors pencils in
+    if List.mem None found then None else Some (d, List.filter_map Fun.id found) in
+  match by 64 factor_by_doubles with
+  | Some found -> Some found
+  | None -> by exact_bits factor_by_fractions
+
+let definite_leaf p diagonal region =
+  match definite_factors [p] diagonal region with
+  | Some (d, [low, high]) -> Some (Kernel.Definite (d, low, high))
   | _ -> None
 
 (* Factors of the forms at both ends for vectors of any signs (Unique.v). *)
@@ -714,7 +754,7 @@ let elimination (pencil : Kernel.pencil) slip common slip_common
       let a = match List.nth_opt c.anchors anchor with
         | Some a when bits (Q.num a.center) + bits (Q.den a.center) > 2_048 ->
           Problem.not_verified "a center of more than 2,048 bits"
-        | Some a when not a.reversed && a.right <> [] -> a
+        | Some a when not a.reversed -> a
         | _ -> no_witness "an anchor of a linear family" in
       require_shape nf ns a;
       let right = List.map shortened a.right and left = List.map shortened a.left in
