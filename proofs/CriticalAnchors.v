@@ -6,7 +6,8 @@
      AboutAnchor n g tr  evidence of Critical.v for both parts, condensed about anchor n with the
                          grain g over the interval of the box; in the tree tr the position u in
                          this interval stands in place of t;
-     WithoutAnchor l     a leaf of Critical.v that needs no enclosures.
+     WithoutAnchor l     a leaf of Critical.v that needs no enclosures; of a problem with radii and
+                         without free variables one about the rows as they are ([exact_part]).
 
    Over the box both local pencils are near lines, and their rows have one positive factor, so the
    local pencil at mu is a combination of those at both ends of the interval of mu.
@@ -56,6 +57,13 @@ Definition widened (radii : option part_radii) (P : enclosed) : enclosed :=
     Enclosed (size_of P) (center_a P) (center_b P) (wider (center_a P) (radius_a P))
       (wider (center_b P) (radius_b P))
   else P.
+
+(* Without free variables: the entries of a part with their radii. *)
+Definition exact_part (Q : pencil) (radii : seq sparse_row * seq sparse_row) : enclosed :=
+  let ix := iota 0 (order Q) in
+  let table (rows : seq sparse_row) : matrix :=
+    [seq [seq lookup (nth [::] rows i) j | j <- ix] | i <- ix] in
+  Enclosed (order Q) (table (rows_a Q)) (table (rows_b Q)) (table radii.1) (table radii.2).
 
 Definition swapped_radii (radii : option (seq sparse_row * seq sparse_row)) :=
   omap (fun rad => (rad.2, rad.1)) radii.
@@ -119,7 +127,12 @@ Definition check_anchored_box (families : seq (option (anchor_family * anchor_fa
           check_about (mass_below w) (stiffness_below w) b fams grain (swap_region r) low high tr'
         else check_about (stiffness_below w) (mass_below w) b fams grain r low high tr'
       else false
-  | WithoutAnchor l => if radii is Some rad then false else check_whole_leaf z r low high l
+  | WithoutAnchor l =>
+      if radii is Some rad then
+        nilp (free Q0) &&
+        check_parts (exact_part Q0 (plain_radii rad))
+          (widened radii (exact_part Q1 (friction_radii rad))) r low high l
+      else check_whole_leaf z r low high l
   end.
 
 Definition both_bounded :=
@@ -168,6 +181,17 @@ have entryE (f : nat -> nat -> Z) :
     entry [seq [seq f i j | j <- iota 0 (size_of P)] | i <- iota 0 (size_of P)] i j = f i j.
   by rewrite /entry (nth_map 0%N) ?size_iota // (nth_map 0%N) ?size_iota // !nth_iota.
 by split; rewrite entryE; apply: wider.
+Qed.
+
+Lemma exact_encloses (R : rcfType) Q (A B : nat -> nat -> R) radii :
+  within_radii Q A B radii -> encloses (exact_part Q radii) A B.
+Proof.
+move=> near i j Hi Hj; have := near i j Hi Hj.
+have tableE rows : entry [seq [seq lookup (nth [::] rows i) j | j <- iota 0 (order Q)]
+    | i <- iota 0 (order Q)] i j = lookup (nth [::] rows i) j.
+  move: Hi Hj; rewrite !mem_iota !add0n => lt_i lt_j.
+  by rewrite /entry (nth_map 0%N) ?size_iota // (nth_map 0%N) ?size_iota // !nth_iota.
+by rewrite /exact_part /= !tableE.
 Qed.
 
 Lemma size_widened radii P : size_of (widened radii P) = size_of P.
@@ -385,8 +409,9 @@ Hypothesis signs : forall k, (k < size (slip Q0))%N -> let i := nth 0%N (slip Q0
 Hypothesis both_absent : forall r',
   both_halves z r' -> agrees (size (slip Q0)) r' (slip_of Q0 x) -> False.
 Variables (r : region) (low high : point).
-Hypotheses (O : ordered (lower r) (upper r)) (bt : between t (lower r) (upper r)).
-Hypotheses (bm : between mu low high) (ag : agrees (size (slip Q0)) r (slip_of Q0 x)).
+Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
+Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
+Hypothesis ag : agrees (size (slip Q0)) r (slip_of Q0 x).
 
 Lemma member_box_absent n grain e :
   check_anchored_box z radii w (box_expansions z radii w) r low high (AboutAnchor n grain e) ->
@@ -414,6 +439,33 @@ have ready' := member_prepared (Q := swap_pencil Q1) wfQ (member_swapped in_fric
   (swapped_below_a bb1) (swapped_below_b ba1) proper.
 exact: (about_reversed_absent ready ready' grain0 same_size shares bm (between_gt0 O lo0 bt) bt ag
   nonzero rows_f rows_f' signs both_absent ok).
+Qed.
+
+(* Without free variables: the entries of the parts with their radii. *)
+Lemma exact_box_absent rad l : radii = Some rad ->
+  check_anchored_box z radii w (box_expansions z radii w) r low high (WithoutAnchor l) -> False.
+Proof.
+move=> some /=; rewrite {1}some => /andP[/nilP no_free ok].
+move: (in_plain) (in_friction) (shares); rewrite {1 2 3}some /= => -[near _ _] [near' _ _] near_g.
+have all_slip : slip Q0 = indices (exact_part Q0 (plain_radii rad)).
+  rewrite /slip (_ : free Q0 = [::]) // (eq_filter (a2 := predT)) ?filter_predT //.
+have n_slip : size (slip Q0) = order Q0 by rewrite all_slip size_iota.
+have slip_at k : (k < order Q0)%N -> nth 0%N (slip Q0) k = k.
+  by move=> lt_k; rewrite all_slip nth_iota.
+have {}near_g : within_shares radii (size_of (exact_part Q1 (friction_radii rad))) g.
+  by move: near_g; rewrite some n_slip.
+apply: (parts_absent (r := r) (t := t) (mu := mu) (exact_encloses near)
+  (widened_encloses near_g (exact_encloses near')) (size_widened radii _) O Om bt bm
+  (xs := x) (factor := fun=> 1) (row := y) (row' := fun i => g i * y' i) _ _ _ _ _ _ ok) => //.
+- move: ag; rewrite n_slip => ag' k lt_k; have := ag' k lt_k.
+  by rewrite /slip_of slip_at.
+- by move=> i _; apply: ltr01.
+- by move=> i _; rewrite mul1r.
+- move=> i _; rewrite mul1r /image (same_indices (size_widened radii _)) /member_reaction mulr_sumr.
+  apply: eq_bigr => j _; rewrite /Enclosed.T.
+  by move: (A' i j) (B' i j) (g i) (x j) => *; ring.
+move=> k; rewrite mem_iota add0n /= => lt_k; have := signs (k := k).
+by rewrite n_slip slip_at //; apply.
 Qed.
 
 End Box.

@@ -72,5 +72,5 @@ Extraction "kernel.ml"
   check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held
   is_apart applied_row equations
   inequalities scaled_row signed_part check_given_rates check_given_stable mu_pencil k_rows kappa_in
-  width_bound check_members_absent radii_of_parts scaled_radii widened check_radii_absent
+  width_bound check_members_absent radii_of_parts scaled_radii widened exact_part check_radii_absent
   told_apart.

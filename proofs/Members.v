@@ -394,11 +394,14 @@ have x0 j : (j < slip_number z)%N -> 0 <= slip_of Q0 x j.
 have start : in_region (slip_number z) t (slip_of Q0 x) (window zero infinity).
   split; last by move=> i _; rewrite /state_of nth_nil.
   by rewrite /between /= toR0 toR1 mulr1 mulr0 ler01.
-have [r [low [high [l [_ [[bt ag] bm' O _ ok]]]]]] := box_reaches_a_leaf boxes x0 start bm.
-case: l ok => [a grain e|l] // ok.
-apply: (member_box_absent bounds member_plain member_friction member_shares x_nonzero
-  (free_rows 0%Z 1%Z) (free_rows 1%Z 0%Z) signs _ O bt bm' _ ok) => //.
-by move: ag; rewrite -(size_slips z (Lambda2 0 1)).
+have [r [low [high [l [_ [[bt ag] bm' O Om ok]]]]]] := box_reaches_a_leaf boxes x0 start bm.
+have ag' : agrees (size (slip Q0)) r (slip_of Q0 x).
+  by move: ag; rewrite -(size_slips z (Lambda2 0 1)).
+case: l ok => [a grain e|l] ok.
+  apply: (member_box_absent bounds member_plain member_friction member_shares x_nonzero
+    (free_rows 0%Z 1%Z) (free_rows 1%Z 0%Z) signs _ O bt bm' ag' ok) => //.
+exact: (exact_box_absent member_plain member_friction member_shares x_nonzero signs O Om bt bm' ag'
+  (erefl _) ok).
 Qed.
 
 Theorem members_present w pieces from bound : check_members_present s rad w pieces from bound ->

@@ -335,19 +335,21 @@ let with_tail c v plain friction slip =
                families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring) }
   | _ -> v
 
+(* Without free variables there is nothing to bound. *)
+let nothing_bounded box_anchors =
+  let bound = { trivial_bound with Kernel.bound_at = Z.one } in
+  { Kernel.stiffness_below = bound; mass_below = bound; box_anchors }
+
 (* Without free variables: anchors without matrices for t and for 1/t, in a unit that leaves the
    rounding small. *)
 let anchored_without_free c (plain : Kernel.pencil) friction slip =
-  let bound = { trivial_bound with Kernel.bound_at = Z.one } in
   let anchor reversed_anchor =
     { Kernel.reversed_anchor;
       plain_anchor =
         { Kernel.anchor_center = Kernel.zero; anchor_unit = two_to 64; anchor_right = [];
           anchor_left = []; anchor_scale = common_scales plain friction slip c.slip_factor };
       friction_left = [] } in
-  let anchoring =
-    { Kernel.stiffness_below = bound; mass_below = bound;
-      box_anchors = [anchor false; anchor true] } in
+  let anchoring = nothing_bounded [anchor false; anchor true] in
   { plain_pencil = plain; anchoring;
     families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring); numbers = [] }
 
@@ -518,25 +520,37 @@ let leaf_of_parts c parts _ box node =
   | BoxTail -> found "tail" [by_tail c; by_whole c Identity]
   | _ -> no_witness "a condensation is missing"
 
-(* For members: the first anchor where the interval is finite, the second one towards infinity. *)
-let member_leaf_without_free c v _ box node =
+(* The rows of members as they are, with their radii. *)
+let exact_parts (radii : Kernel.part_radii) plain friction =
+  Kernel.exact_part plain radii.plain_radii,
+  Kernel.widened (Some radii) (Kernel.exact_part friction radii.friction_radii)
+
+(* For members: the weights of the file are those of scaled rows. *)
+let member_leaf_without_free c parts scales _ box node =
   no_leaf node;
-  let number box =
-    if finite box.region.upper then Some 0
-    else if Z.sign (fst box.region.lower) > 0 then Some 1 else None in
+  spend_box (Array.length c.slip) box;
+  let scaled = List.map2 Z.mul scales in
   let closed what directions make =
-    let way box = Option.bind (number box) (fun n -> about c v n box (make box)) in
-    close what directions [way] box in
-  let definite diagonal box parts region = definite_box parts diagonal region box in
+    let checked box = match make box with
+      | Some l when Kernel.check_parts (fst parts) (snd parts) box.region box.low box.high l ->
+        Some (Kernel.WithoutAnchor l)
+      | _ -> None in
+    close what directions [checked] box in
+  let definite diagonal box =
+    let weights = match diagonal with
+      | Identity -> scales
+      | Opposite -> List.map Z.neg scales
+      | Weighted d -> scaled (for_each c d) in
+    definite_box parts (Weighted weights) box.region box in
   match node with
   | BoxFarkas w ->
-    let w = for_each c w in
-    closed "farkas" (along_value c) (fun _ _ _ -> Some (Kernel.BoxFarkas w))
-  | BoxDefinite diagonal -> closed "definite" (along_value c) (definite diagonal)
+    let w = scaled (for_each c w) in
+    closed "farkas" [] (fun _ -> Some (Kernel.BoxFarkas w))
+  | BoxDefinite diagonal -> closed "definite" [] (definite diagonal)
   | BoxRegular pivot ->
     let k = position c.slip pivot in
-    closed "regular" in_turn (fun box parts region -> regular_box parts k region box)
-  | _ -> closed "tail" (along_value c) (definite Identity)
+    closed "regular" in_turn (fun box -> regular_box parts k box.region box)
+  | _ -> closed "tail" [] (definite Identity)
 
 (* ---------- trees *)
 

@@ -573,19 +573,23 @@ let absence (problem : Scaling.t) (certificate : Certificate.critical) () =
              (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
     Kernel.ByAnchors (anchored.anchoring, tree) in
   let of_members (members : Scaling.members) =
-    let anchored = timed "condensation" (fun () -> match condensation with
-        | None -> Critical.anchored_without_free context plain friction slip_list
-        | Some condensation ->
-          let anchored = Critical.anchored_of context plain friction slip_list condensation
-              (Critical.anchors_of_boxes pieces) in
-          Critical.with_tail context anchored plain friction slip_list) in
-    let leaf = if condensation = None then Critical.member_leaf_without_free context anchored
-      else Critical.anchored_leaf context anchored in
-    let tree = timed "elaboration" (fun () ->
-        Critical.join
-          (Critical.build context leaf (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
+    let build leaf =
+      timed "elaboration" (fun () ->
+          Critical.join
+            (Critical.build context leaf (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
+    let anchoring, tree = match condensation with
+      | None ->
+        let parts = Critical.exact_parts members.radii plain friction in
+        let scales = Critical.common_scales plain friction slip_list context.slip_factor in
+        Critical.nothing_bounded [], build (Critical.member_leaf_without_free context parts scales)
+      | Some condensation ->
+        let anchored = timed "condensation" (fun () ->
+            let anchored = Critical.anchored_of context plain friction slip_list condensation
+                (Critical.anchors_of_boxes pieces) in
+            Critical.with_tail context anchored plain friction slip_list) in
+        anchored.anchoring, build (Critical.anchored_leaf context anchored) in
     Kernel.MembersAbsence (context.mu_low, context.mu_high, members.shares, members.share_unit,
-                           anchored.anchoring, tree) in
+                           anchoring, tree) in
   match problem.members, condensation with
   | Some members, _ -> of_members members
   | None, None -> Kernel.Absence (context.mu_low, context.mu_high, without_free_variables ())

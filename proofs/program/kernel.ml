@@ -4697,6 +4697,14 @@ let widened radii p =
     (wider p.center_a p.radius_a); radius_b = (wider p.center_b p.radius_b) }
   | None -> p
 
+(** val exact_part : pencil -> (sparse_row list * sparse_row list) -> enclosed **)
+
+let exact_part q radii =
+  let ix = iota 0 q.order in
+  let table0 = fun rows -> map0 (fun i -> map0 (fun j -> lookup (nth [] rows i) j) ix) ix in
+  { size_of = q.order; center_a = (table0 q.rows_a); center_b = (table0 q.rows_b); radius_a =
+  (table0 (fst radii)); radius_b = (table0 (snd radii)) }
+
 (** val swapped_radii :
     (sparse_row list * sparse_row list) option -> (sparse_row list * sparse_row list) option **)
 
@@ -4794,7 +4802,10 @@ let check_anchored_box z0 radii w families0 r low high = function
    | None -> false)
 | WithoutAnchor l0 ->
   (match radii with
-   | Some _ -> false
+   | Some rad ->
+     (&&) (nilp (part_plain z0).free)
+       (check_parts (exact_part (part_plain z0) rad.plain_radii)
+         (widened radii (exact_part (part_friction z0) rad.friction_radii)) r low high l0)
    | None -> check_whole_leaf z0 r low high l0)
 
 (** val both_bounded : zero_system -> part_radii option -> box_anchoring -> bool **)

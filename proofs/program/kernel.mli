@@ -1595,6 +1595,8 @@ type part_radii = { plain_radii : (sparse_row list * sparse_row list);
 
 val widened : part_radii option -> enclosed -> enclosed
 
+val exact_part : pencil -> (sparse_row list * sparse_row list) -> enclosed
+
 val swapped_radii :
   (sparse_row list * sparse_row list) option -> (sparse_row list * sparse_row list) option
 
