@@ -539,7 +539,7 @@ let member_leaf_without_free c parts scales _ box node =
   let definite diagonal box =
     let weights = match diagonal with
       | Identity -> scales
-      | Opposite -> List.map Z.neg scales
+      | Opposite -> opposite (Array.length c.slip) scales
       | Weighted d -> scaled (for_each c d) in
     definite_box parts (Weighted weights) box.region box in
   match node with

@@ -194,6 +194,13 @@ let whole_leaf (pencil : Kernel.pencil) weights region =
   | Some w -> Some w
   | None -> weighted_whole_leaf pencil (opposite pencil.order weights) region
 
+(* The work of the search for witnesses: a file ends in bounded time. *)
+let work = ref 0
+
+let spend order =
+  work := !work + 1_000 + order * order * order;
+  if !work > 1 lsl 32 then no_witness "limits of this program"
+
 (* ---------- leaves of the condensed pencil *)
 
 (* Weights of a file: one for each of the n complementarity variables. *)
@@ -208,37 +215,37 @@ let diagonal_weights n k = function
   | Opposite -> List.init n (fun _ -> Z.neg (two_to k))
   | Weighted d -> List.map (fun w -> Z.shift_left w k) (one_for_each n d)
 
-(* Ways to factors of a form: bits by which the weights are multiplied, and rows with weights. *)
-let factor_by_doubles strict s =
+(* Ways to a factor of a form, as weights and rows: one in doubles. *)
+let ways_in_doubles strict s =
   let with_ones rows = (List.map (fun _ -> Z.one) rows, rows) in
-  Option.to_list (Option.map (fun rows ->
-      with_ones (Array.to_list (Array.map Array.to_list rows))) (factor_rows strict s))
+  [fun () -> Option.map (fun rows -> with_ones (Array.to_list (Array.map Array.to_list rows)))
+      (factor_rows strict s)]
 
 (* L D L' of the form less 2^-margin of its largest entry, rounded.  L and D need some 4 margin bits
-   in all. *)
+   in all, so the weights are multiplied by 2^exact_bits. *)
 let exact_bits = 2_048
 let exact_order = 12
 
-let factor_by_fractions strict s =
+let ways_in_fractions s =
   let n = Array.length s in
   let top = Array.fold_left (Array.fold_left (fun m v -> max m (bits v))) 0 s in
-  let at_margin margin =
-    let off i j v = if i = j then Z.sub v (two_to (max 0 (top - margin))) else v in
-    let lowered = Array.mapi (fun i row -> Array.mapi (fun j v -> Q.of_bigint (off i j v)) row) s in
+  let at_margin margin () =
+    spend (4 * n);
+    let lower i j v = if i = j then Z.sub v (two_to (max 0 (top - margin))) else v in
+    let lowered = Array.mapi (fun i row ->
+        Array.mapi (fun j v -> Q.of_bigint (lower i j v)) row) s in
+    let digits = margin + 64 in
+    let rounded shift v = Z.fdiv (Z.shift_left (Q.num v) shift) (Q.den v) in
+    let weight v = Z.shift_right (rounded 0 v) (2 * digits) in
+    let integers row = Array.to_list (Array.map (rounded digits) row) in
     Option.map (fun (l, d) ->
-        let digits = margin + 64 in
-        let rounded shift v = Z.fdiv (Z.shift_left (Q.num v) shift) (Q.den v) in
-        let weight v = Z.shift_right (rounded 0 v) (2 * digits) in
-        let row l = Array.to_list (Array.map (rounded digits) l) in
-        (* G = L D L': a column of L for each weight. *)
-        (Array.to_list (Array.map weight d), Array.to_list (Array.map row l)))
+        (Array.to_list (Array.map weight d), Array.to_list (Array.map integers l)))
       (exact_ldl lowered) in
-  if n > exact_order || top = 0 && strict then []
-  else List.filter_map at_margin [16; 64; 128; 256; 400]
+  if n > exact_order then [] else List.map at_margin [16; 64; 128; 256; 400]
 
 (* Weights and, for each of these pencils, factors at both ends. *)
 let definite_factors pencils diagonal (region : Kernel.region) =
-  let by k find =
+  let by k ways =
     let order = (List.hd pencils).Kernel.size_of in
     let d = diagonal_weights order k diagonal in
     let factors (p : Kernel.enclosed) =
@@ -246,18 +253,22 @@ let definite_factors pencils diagonal (region : Kernel.region) =
       let factor strict e =
         let entry i j = Kernel.symmetric_part p d e i j in
         let s = Array.map (fun i -> Array.map (entry i) active) active in
-        List.find_map (fun (weights, factor_rows) ->
+        let accepted way = match way () with
+          | None -> None
+          | Some (weights, factor_rows) ->
             let f = { Kernel.weights; factor_rows } in
-            if Kernel.definite_end p d strict e region f then Some f else None) (find strict s) in
+            if Kernel.definite_end p d strict e region f then Some f else None in
+        List.find_map accepted (ways strict s) in
       match factor true region.lower with
       | None -> None
       | Some low ->
-        Option.map (fun high -> (low, high)) (factor (Z.sign (snd region.upper) > 0) region.upper) in
+        let is_finite = Z.sign (snd region.upper) > 0 in
+        Option.map (fun high -> (low, high)) (factor is_finite region.upper) in
     let found = List.map factors pencils in
     if List.mem None found then None else Some (d, List.filter_map Fun.id found) in
-  match by 64 factor_by_doubles with
+  match by 64 ways_in_doubles with
   | Some found -> Some found
-  | None -> by exact_bits factor_by_fractions
+  | None -> by exact_bits (fun strict s -> ways_in_doubles strict s @ ways_in_fractions s)
 
 let definite_leaf p diagonal region =
   match definite_factors [p] diagonal region with
@@ -300,13 +311,6 @@ let rounded_inverse s =
   match inverse (Array.map (Array.map (fun v -> Float.ldexp v (-top))) s) with
   | None -> None
   | Some y -> Some (Array.map (Array.map (fun v -> round_scaled v precision)) y, top + precision)
-
-(* The work of the search for witnesses: a file ends in bounded time. *)
-let work = ref 0
-
-let spend order =
-  work := !work + 1_000 + order * order * order;
-  if !work > 1 lsl 32 then no_witness "limits of this program"
 
 let box_of (p : Kernel.enclosed) f j_list k_list v (e1, e2) t =
   let k = Array.of_list k_list in

@@ -717,19 +717,25 @@ let complete (problem : Scaling.t) (certificate : Certificate.t) =
 let rates (problem : Scaling.t) (certificate : Certificate.t) =
   let is_definite (p : Certificate.piece) = match p.tree with
     | [Definite Identity] | [Ldl] -> true
+    | [Definite (Weighted d)] -> List.for_all (fun w -> Z.sign w > 0) d
     | _ -> false in
   match problem.question with
   | SystemProblem (_, Mu) when certificate.pieces <> [] && Q.sign (fst certificate.window) > 0
                                && List.for_all is_definite certificate.pieces ->
     let q = question_of problem (pencil_of problem) certificate [] in
-    let by (elimination : Kernel.elimination) =
+    let elimination = eliminated q Elaborate.elimination in
+    let scale = elimination.Kernel.row_scale in
+    (* Positive weights are factors of rows.  The rows of `ldl` are not scaled. *)
+    let factors (p : Certificate.piece) = match p.tree with
+      | [Definite (Weighted d)] ->
+        List.map2 Z.mul scale (Elaborate.one_for_each (List.length scale) d)
+      | [Ldl] -> List.map (fun _ -> Z.one) scale
+      | _ -> scale in
+    let by row_scale =
+      let elimination = { elimination with Kernel.row_scale } in
       Option.map (fun (low, high) -> Kernel.DefiniteRates (q.lo, q.hi, elimination, low, high))
         (Elaborate.signed_factors (enclosed_by q elimination) q.lo q.hi) in
-    let elimination = eliminated q Elaborate.elimination in
-    (* The rows of `ldl` are not scaled. *)
-    (match by elimination with
-     | None -> by { elimination with row_scale = List.map (fun _ -> Z.one) q.slip_list }
-     | found -> found)
+    List.find_map by (List.sort_uniq compare (List.map factors certificate.pieces))
   | _ -> None
 
 (* All solutions at infinity: the certificate is one of the reversed problem, over [0, 0].  Claims
