@@ -93,6 +93,20 @@ impl Algebraic {
         Self::isolated(poly.squarefree(), interval)
     }
 
+    /// Minus this number.
+    ///
+    /// ```
+    /// use mceip_exact::{nonnegative_roots, whole, Poly};
+    /// let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0); // sqrt 2
+    /// let mut minus = root.negated();
+    /// assert!(minus.cmp_rational(&whole(-1)).is_lt());
+    /// assert!(minus.cmp_rational(&whole(-2)).is_gt());
+    /// ```
+    #[must_use]
+    pub fn negated(&self) -> Self {
+        Self::isolated(self.poly.reflected(), self.interval.negated())
+    }
+
     /// A squarefree polynomial that vanishes here.
     pub fn poly(&self) -> &Poly {
         &self.poly

@@ -163,6 +163,21 @@ impl Poly {
         Poly::new(self.coeffs.iter().map(|c| c * factor).collect())
     }
 
+    /// The polynomial at -t.
+    ///
+    /// ```
+    /// use mceip_exact::Poly;
+    /// let p = Poly::from_ints(&[1, 2, 3]);
+    /// assert_eq!(p.reflected(), Poly::from_ints(&[1, -2, 3]));
+    /// ```
+    pub fn reflected(&self) -> Poly {
+        let mut coeffs = self.coeffs.clone();
+        for odd in coeffs.iter_mut().skip(1).step_by(2) {
+            *odd = -&*odd;
+        }
+        Poly::new(coeffs)
+    }
+
     /// Times `t^k`.
     pub fn shift(&self, k: usize) -> Poly {
         let mut coeffs = vec![Integer::zero(); k];
