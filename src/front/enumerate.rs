@@ -6,9 +6,9 @@ use super::run::{Watched, unless_cancelled, watched_question};
 use crate::say;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_engine::run::Progress;
+use mceip_model::Reduced;
 use mceip_model::reduction::reduce;
-use mceip_model::{Body, Reduced};
-use mceip_oracle::{Enumeration, ModeList, enumerate_modes_with, enumerate_with};
+use mceip_oracle::{Enumeration, IntegerPencil, ModeList, enumerate_modes_with, enumerate_with};
 use serde_json::Value;
 use std::fmt;
 
@@ -134,12 +134,8 @@ impl<'a> Enumerate<'a> {
         let real_window = &problem.real_window();
         let listing = if reduced.zero.is_empty() {
             let step = |done, total| step("supports", done, total);
-            Listing::Supports(match problem.body() {
-                Body::Quadratic(quadratic) => enumerate_with(quadratic, real_window, step)?,
-                Body::Pencil(_) | Body::System(_) => {
-                    enumerate_with(&reduced.pencil, real_window, step)?
-                }
-            })
+            let pencil = IntegerPencil::of(problem, &reduced);
+            Listing::Supports(enumerate_with(pencil, real_window, step)?)
         } else {
             let step = |done, total| step("choices of modes", done, total);
             Listing::Modes(enumerate_modes_with(&reduced, window, step)?)

@@ -14,7 +14,7 @@
 use mceip_exact::{
     Algebraic, Dense, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at, submatrix,
 };
-use mceip_model::{Pencil, QuadraticPencil};
+use mceip_model::{Body, Pencil, Problem, QuadraticPencil, Reduced};
 
 /// A pencil whose rows have been made integral, and its free variables.
 pub struct IntegerPencil<'a> {
@@ -48,6 +48,16 @@ impl From<&QuadraticPencil> for IntegerPencil<'_> {
         IntegerPencil {
             coefficients: Dense::clear_rows([&a, &b, &c]).into(),
             free: &[],
+        }
+    }
+}
+
+impl<'a> IntegerPencil<'a> {
+    /// Of a problem: a quadratic pencil as it is given, else the reduced pencil.
+    pub fn of(problem: &Problem, reduced: &'a Reduced) -> IntegerPencil<'a> {
+        match problem.body() {
+            Body::Quadratic(quadratic) => quadratic.into(),
+            Body::Pencil(_) | Body::System(_) => (&reduced.pencil).into(),
         }
     }
 }

@@ -13,13 +13,15 @@ use super::enumeration::Enumeration;
 use super::solution::Solution;
 use super::solution::equal_values;
 use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, cleared, common_denominator};
-use mceip_model::{Pencil, QuadraticPencil};
+use mceip_model::{Body, Pencil, Problem, QuadraticPencil, Reduced, Unknown};
 
 /// A pencil as it is given: what (t, x) is held against.
 pub struct GivenPencil<'a> {
     /// The coefficients of 1, t and, of a quadratic pencil, t^2.
     coefficients: Vec<&'a Sparse>,
     free: &'a [usize],
+    /// Are solutions with t < 0 asked for?
+    has_both_signs: bool,
 }
 
 impl<'a> From<&'a Pencil> for GivenPencil<'a> {
@@ -27,6 +29,7 @@ impl<'a> From<&'a Pencil> for GivenPencil<'a> {
         GivenPencil {
             coefficients: vec![pencil.a(), pencil.b()],
             free: pencil.free(),
+            has_both_signs: false,
         }
     }
 }
@@ -36,12 +39,45 @@ impl<'a> From<&'a QuadraticPencil> for GivenPencil<'a> {
         GivenPencil {
             coefficients: quadratic.coefficients().into(),
             free: &[],
+            has_both_signs: false,
+        }
+    }
+}
+
+impl<'a> GivenPencil<'a> {
+    /// Of a problem: a quadratic pencil as it is given, else the reduced pencil; with t of both
+    /// signs for the unknown `eigenvalue`.
+    ///
+    /// ```
+    /// use mceip_exact::{Sparse, whole};
+    /// use mceip_model::reduction::reduce;
+    /// use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+    /// use mceip_oracle::{GivenPencil, is_rational_solution};
+    /// let pencil = Pencil::new(Sparse::from_ints(&[&[2]]), Sparse::identity(1), vec![])?;
+    /// for (unknown, has_it) in [(Unknown::Eigenvalue, true), (Unknown::Lambda2, false)] {
+    ///     let body = Body::Pencil(pencil.clone());
+    ///     let problem = Problem::new(body, unknown, Window::all())?;
+    ///     let reduced = reduce(&problem)?;
+    ///     let given = GivenPencil::of(&problem, &reduced);
+    ///     assert_eq!(is_rational_solution(given, &whole(-2), &[whole(1)]), has_it);
+    /// }
+    /// # Ok::<(), mceip_model::ModelError>(())
+    /// ```
+    pub fn of(problem: &'a Problem, reduced: &'a Reduced) -> GivenPencil<'a> {
+        let pencil = match problem.body() {
+            Body::Quadratic(quadratic) => GivenPencil::from(quadratic),
+            Body::Pencil(_) | Body::System(_) => GivenPencil::from(&reduced.pencil),
+        };
+        GivenPencil {
+            has_both_signs: problem.unknown() == Unknown::Eigenvalue,
+            ..pencil
         }
     }
 }
 
 impl GivenPencil<'_> {
-    fn order(&self) -> usize {
+    /// Number of variables.
+    pub fn order(&self) -> usize {
         self.coefficients[0].rows()
     }
 
@@ -61,7 +97,8 @@ impl GivenPencil<'_> {
     }
 }
 
-/// Is (t, x) a solution: t >= 0, x != 0, y = (A + tB) x with y_f = 0 and 0 <= x_s _|_ y_s >= 0?
+/// Is (t, x) a solution: x != 0, y = (A + tB) x with y_f = 0 and 0 <= x_s _|_ y_s >= 0, and t >= 0
+/// unless values of both signs are asked for ([`GivenPencil::of`])?
 /// x is given by integer polynomials at t, up to a positive factor. The window plays no part.
 ///
 /// A vector of another length than the pencil's order is no solution.
@@ -111,10 +148,12 @@ struct Signs {
 }
 
 impl Signs {
-    /// `None` for a vector of another length than the pencil's order, and for t < 0.
+    /// `None` for a vector of another length than the pencil's order, and for t < 0 that is not
+    /// asked for.
     fn of(pencil: &GivenPencil<'_>, value: &Algebraic, x: &[Poly]) -> Option<Signs> {
         let mut value = value.clone();
-        if x.len() != pencil.order() || value.cmp_rational(&Rational::default()).is_lt() {
+        let is_negative = value.cmp_rational(&Rational::default()).is_lt();
+        if x.len() != pencil.order() || is_negative && !pencil.has_both_signs {
             return None;
         }
 

@@ -29,8 +29,10 @@ use mceip_engine::multistart::{
 use mceip_engine::run::Watch;
 use mceip_exact::{Algebraic, Quadratic, Rational, Sign};
 use mceip_model::reduction::{check_lines, lift, reduce};
-use mceip_model::{Admissible, Body, Pencil, Problem, Reduced};
-use mceip_oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
+use mceip_model::{Admissible, Body, Problem, Reduced};
+use mceip_oracle::{
+    ClosedSolution, Enumeration, GivenPencil, IntegerPencil, Solution, enumerate, table1,
+};
 use num_traits::Signed;
 
 /// What came of one instance.
@@ -250,7 +252,7 @@ fn run_solver(
 
     let answered = Answered {
         problem,
-        pencil,
+        reduced,
         oracle,
         verified: treatment.verified.as_ref(),
     };
@@ -270,10 +272,7 @@ pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disag
     let reduced = reduce(problem).and_then(Reduced::without_zero);
     let reduced = reduced.map_err(|e| Disagreement::refused("reduction", &e))?;
 
-    let oracle = match problem.body() {
-        Body::Quadratic(quadratic) => enumerate(quadratic, problem.window()),
-        Body::Pencil(_) | Body::System(_) => enumerate(&reduced.pencil, problem.window()),
-    };
+    let oracle = enumerate(IntegerPencil::of(problem, &reduced), problem.window());
     let oracle = oracle.map_err(|e| Disagreement::refused("enumerator", &e))?;
 
     Ok((reduced, oracle))
@@ -502,7 +501,7 @@ fn submit_verified(
 /// A problem, its pencil, the enumerator's answer, and the verified checker.
 struct Answered<'a> {
     problem: &'a Problem,
-    pencil: &'a Pencil,
+    reduced: &'a Reduced,
     oracle: &'a Enumeration,
     verified: Option<&'a VerifiedChecker>,
 }
@@ -593,14 +592,10 @@ fn same_value(value: &Algebraic, claim: &Claim) -> bool {
 fn is_described(answered: &Answered<'_>, claim: &Claim) -> bool {
     let oracle = answered.oracle;
     if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
-        let x = integer_x(c);
-        return match answered.problem.body() {
-            // Without z of the linear form.
-            Body::Quadratic(quadratic) => {
-                oracle.contains(quadratic, &value, &x[..quadratic.order()])
-            }
-            Body::Pencil(_) | Body::System(_) => oracle.contains(answered.pencil, &value, &x),
-        };
+        let given = GivenPencil::of(answered.problem, answered.reduced);
+        // Without z of the linear form of a quadratic pencil.
+        let x = &integer_x(c)[..given.order()];
+        return oracle.contains(given, &value, x);
     }
 
     let support = support(claim);
