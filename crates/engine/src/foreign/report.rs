@@ -11,6 +11,7 @@ use crate::tolerance::X_RADIUS;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{Number, Object, from_json_of_with_unique_keys, require_format};
 use mceip_model::{Body, ModelError, Problem, Reduced};
+use mceip_oracle::GivenPencil;
 use num_traits::Zero as _;
 use serde::{Deserialize, Deserializer};
 
@@ -100,7 +101,7 @@ pub enum BadPoint {
 pub struct ForeignContinuum {
     /// The support.
     pub slip: Vec<usize>,
-    /// Lower and upper end of each interval; no upper end means infinity.
+    /// Lower and upper end of each interval.
     #[serde(deserialize_with = "objects")]
     pub intervals: Vec<ForeignInterval>,
 }
@@ -108,10 +109,10 @@ pub struct ForeignContinuum {
 /// An interval of values.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub struct ForeignInterval {
-    /// Lower end.
-    #[serde(deserialize_with = "object")]
-    pub from: ForeignEnd,
-    /// Upper end.
+    /// Lower end; none where the interval reaches to -infinity.
+    #[serde(deserialize_with = "optional")]
+    pub from: Option<ForeignEnd>,
+    /// Upper end; none where it reaches to infinity.
     #[serde(default, deserialize_with = "optional")]
     pub to: Option<ForeignEnd>,
 }
@@ -153,17 +154,7 @@ pub enum ForeignError {
     },
 }
 
-/// A field that stands in JSON as an object, not as a list of its fields.
-fn object<'de, T, D>(deserializer: D) -> Result<T, D::Error>
-where
-    T: Deserialize<'de>,
-    D: Deserializer<'de>,
-{
-    let Object(value) = Object::deserialize(deserializer)?;
-    Ok(value)
-}
-
-/// Such a field where it is there.
+/// A field that stands in JSON as an object, not as a list of its fields, or is null.
 fn optional<'de, T, D>(deserializer: D) -> Result<Option<T>, D::Error>
 where
     T: Deserialize<'de>,
@@ -296,10 +287,7 @@ fn given_x(
     problem: &Problem,
     reduced: &Reduced,
 ) -> Result<GivenX, BadPoint> {
-    let order = match problem.body() {
-        Body::Quadratic(quadratic) => quadratic.order(),
-        Body::Pencil(_) | Body::System(_) => reduced.pencil.order(),
-    };
+    let order = GivenPencil::of(problem, reduced).order();
     if let Some(x) = &raw.x {
         require_length(index, "x", order, x.len())?;
         let x = rationals(x);
