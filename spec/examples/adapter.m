@@ -5,7 +5,7 @@
 %
 % Reads a pencil (mceip-problem/1) on each line of stdin and prints mceip-solutions/1 in one line.
 % It is adapter.py in another language: floats and one tolerance, so that repeated roots, biactive
-% indices, cones and continua are beyond it.
+% indices, cones, continua and blocks whose first and last matrices are singular are beyond it.
 1; % Octave: a script, not a file of one function
 
 function out = number(value)
@@ -40,27 +40,34 @@ function out = matrix(m)
   end
 end
 
-function [values, vectors] = eigenpairs(a, b, tolerance)
-  % (t, x) with (a + t b) x = 0, t real: by b where that is regular, else by a and 1/t.
-  by_b = rank(b) == size(b, 1);
+function [values, vectors] = eigenpairs(matrices, tolerance)
+  % (t, x) with (A + tB) x = 0, or (A + tB + t^2 C) x = 0, t real: by the last matrix where it is
+  % regular, else by the first one and 1/t.
+  n = size(matrices{1}, 1);
   values = [];
-  vectors = zeros(size(a, 1), 0);
-  if by_b
-    [all_vectors, all_values] = eig(-(b \ a));
-  elseif rank(a) == size(a, 1)
-    [all_vectors, all_values] = eig(-(a \ b));
-  else
+  vectors = zeros(n, 0);
+  by_last = rank(matrices{end}) == n;
+  if ~by_last
+    matrices = flip(matrices);
+  end
+  if rank(matrices{end}) < n
     return % both singular: given up
   end
+  degree = numel(matrices) - 1;
+  companion = diag(ones(n * (degree - 1), 1), n); % of x, t x, ...
+  for k = 1:degree
+    companion(n * (degree - 1) + (1:n), n * (k - 1) + (1:n)) = -(matrices{end} \ matrices{k});
+  end
+  [all_vectors, all_values] = eig(companion);
   all_values = diag(all_values);
   is_real = abs(imag(all_values)) < tolerance * (1 + abs(all_values));
-  if by_b
+  if by_last
     values = real(all_values(is_real));
   else
     is_real = is_real & abs(all_values) > tolerance;
     values = 1 ./ real(all_values(is_real));
   end
-  vectors = real(all_vectors(:, is_real));
+  vectors = real(all_vectors(1:n, is_real));
 end
 
 function out = vector_text(x)
@@ -71,12 +78,21 @@ end
 function out = report(problem)
   % The report on a problem, in one line.
   tolerance = 1e-8;
-  a = matrix(problem.pencil.a);
-  b = matrix(problem.pencil.b);
-  n = size(a, 1);
-  free = double(problem.pencil.free(:))' + 1;
+  matrices = {matrix(problem.pencil.a), matrix(problem.pencil.b)};
+  if isfield(problem.pencil, 'c')
+    matrices{3} = matrix(problem.pencil.c);
+  end
+  n = size(matrices{1}, 1);
+  scale = max(cellfun(@(m) max(abs(m(:))), matrices));
+  free = [];
+  if isfield(problem.pencil, 'free')
+    free = double(problem.pencil.free(:))' + 1;
+  end
   slip = setdiff(1:n, free);
-  low = number(problem.window.min);
+  low = -Inf;
+  if ~isempty(problem.window.min)
+    low = number(problem.window.min);
+  end
   high = Inf;
   if ~isempty(problem.window.max)
     high = number(problem.window.max);
@@ -87,7 +103,8 @@ function out = report(problem)
     support = slip(bitand(code, 2 .^ (0:numel(slip) - 1)) > 0);
     rest = setdiff(slip, support);
     active = sort([free, support]);
-    [values, vectors] = eigenpairs(a(active, active), b(active, active), tolerance);
+    blocks = cellfun(@(m) m(active, active), matrices, 'UniformOutput', false);
+    [values, vectors] = eigenpairs(blocks, tolerance);
     for k = 1:numel(values)
       t = values(k);
       if t < low - tolerance || t > high + tolerance
@@ -99,8 +116,11 @@ function out = report(problem)
       end
       x = zeros(n, 1);
       x(active) = vectors(:, k) / total;
-      y = (a + t * b) * x;
-      if all(x(support) > tolerance) && all(y(rest) >= -tolerance * max(abs(a(:))))
+      y = zeros(n, 1);
+      for power = 1:numel(matrices)
+        y = y + t ^ (power - 1) * (matrices{power} * x);
+      end
+      if all(x(support) > tolerance) && all(y(rest) >= -tolerance * scale)
         found{end + 1} = sprintf('{"value":%.17g,"x":%s}', max(low, t), vector_text(x));
       end
     end

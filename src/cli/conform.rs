@@ -11,9 +11,9 @@ use crate::picture::{PROFILES, ProfileSeries, profile_picture};
 use mceip_engine::run::Watch;
 use mceip_model::file::{FRACTIONS, write_problem, write_problem_beside_matrices};
 use mceip_testkit::conform::{
-    Case, CasePack, ConformComparison, ConformPlan, ConformRun, Flag, Group, INDEX_FORMAT,
-    PACK_FORMAT, PACK_VERSION, PackName, ProcessLimits, RunHead, groups, measured_difficulty,
-    pack_files, read_pack, run, summarise, tier2,
+    Case, CasePack, ConformComparison, ConformPlan, ConformRun, Flag, FlagChoice, Group,
+    INDEX_FORMAT, PACK_FORMAT, PACK_VERSION, PackName, ProcessLimits, RunHead, groups,
+    measured_difficulty, pack_files, read_pack, run, summarise, tier2,
 };
 use std::path::{Path, PathBuf};
 
@@ -79,6 +79,9 @@ pub(super) struct Args {
     /// Only cases with this flag (may be given more than once; see --flags).
     #[arg(long, value_name = "FLAG")]
     only: Vec<String>,
+    /// No case with this flag (may be given more than once).
+    #[arg(long, value_name = "FLAG")]
+    except: Vec<String>,
     /// Send the cases in a random order (--seed), under names that do not tell which they are.
     #[arg(long)]
     anonymous: bool,
@@ -158,9 +161,12 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     let outcomes = job.watched(|watch| run(&plan, &args.command, watch))?;
     job.end();
     if outcomes.is_empty() && !job.is_cancelled() {
-        let got = args.only.join(" ");
-        let expected = "flags that a case has which --case and --count leave";
-        return Err(CliError::option("only", expected, &got));
+        let (option, words) = match &args.only[..] {
+            [] => ("except", &args.except),
+            _ => ("only", &args.only),
+        };
+        let expected = "flags that leave a case to run (with --case, --count, --only, --except)";
+        return Err(CliError::option(option, expected, &words.join(" ")));
     }
 
     let summary = summarise(&outcomes);
@@ -197,7 +203,11 @@ fn settings(args: &Args) -> String {
         Some(folder) => words.push(format!("the pack in {}", folder.display())),
     }
 
-    for (option, given) in [("--case", &args.case), ("--only", &args.only)] {
+    for (option, given) in [
+        ("--case", &args.case),
+        ("--only", &args.only),
+        ("--except", &args.except),
+    ] {
         for word in given {
             words.push(format!("{option} {word}"));
         }
@@ -232,7 +242,7 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<ConformPlan, CliError> {
         anonymous: args.anonymous,
         as_pencil: args.as_pencil,
         by_lines: args.lines,
-        only: flags(&args.only)?,
+        choice: choice(args)?,
         limits: ProcessLimits {
             time,
             ..ProcessLimits::default()
@@ -241,13 +251,19 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<ConformPlan, CliError> {
     })
 }
 
-fn flags(words: &[String]) -> Result<Vec<Flag>, CliError> {
-    words.iter().map(|word| flag(word)).collect()
+/// The cases that --only and --except leave.
+fn choice(args: &Args) -> Result<FlagChoice, CliError> {
+    Ok(FlagChoice {
+        only: flags("only", &args.only)?,
+        except: flags("except", &args.except)?,
+    })
 }
 
-fn flag(word: &str) -> Result<Flag, CliError> {
+fn flags(option: &'static str, words: &[String]) -> Result<Vec<Flag>, CliError> {
     let expected = "a flag that --flags lists";
-    Flag::of_word(word).ok_or_else(|| CliError::option("only", expected, word))
+    let flag =
+        |word: &String| Flag::of_word(word).ok_or_else(|| CliError::option(option, expected, word));
+    words.iter().map(flag).collect()
 }
 
 /// Leaves the cases with these ids, in the order of the pack; without ids all.
@@ -281,13 +297,13 @@ fn print_flags() -> Result<u8, CliError> {
     Ok(exit::DONE)
 }
 
-/// A line for each case with one of the flags of `--only`.
+/// A line for each case that `--only` and `--except` leave.
 fn print_list(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
-    let only = flags(&args.only)?;
+    let choice = choice(args)?;
     for group in groups {
         for draft in &group.drafts {
             let case = Case::answer(draft, args.as_pencil, &Watch::nobody())?;
-            if case.has_any(&only) {
+            if choice.takes(&case.flags) {
                 let words: Vec<&str> = case.flags.iter().map(|flag| flag.word()).collect();
                 let words = words.join(" ");
                 print(&format!("{}  [{words}]  {}\n", case.id, case.comment))?;
@@ -393,9 +409,9 @@ fn compare(args: &Args) -> Result<u8, CliError> {
     Ok(exit::DONE)
 }
 
-/// Writes each case with one of the flags of `--only` to a folder of its own, by its id.
+/// Writes each case that `--only` and `--except` leave to a folder of its own, by its id.
 fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> {
-    let only = flags(&args.only)?;
+    let choice = choice(args)?;
     make(folder)?;
     let mut count = 0;
     let mut fractions = 0;
@@ -403,7 +419,7 @@ fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> 
     for draft in groups.iter().flat_map(|group| &group.drafts) {
         job.say(&draft.id);
         let case = Case::answer(draft, args.as_pencil, &Watch::nobody())?;
-        if !case.has_any(&only) {
+        if !choice.takes(&case.flags) {
             continue;
         }
 

@@ -11,7 +11,6 @@ use crate::common::{decimal, exits, exits_with_json, read, refused, repository, 
 use crate::program::Folder;
 use mceip_engine::foreign::{Effort, ForeignReport, ForeignVerdict, judge};
 use mceip_engine::run::Watch;
-use mceip_engine::signs::BothSigns;
 use mceip_model::file::read_problem;
 use mceip_testkit::conform::{Bug, Case, Flag, Label, groups};
 use rayon::prelude::*;
@@ -256,7 +255,11 @@ fn wrong_answers_are_rejected() {
     }
 
     let total: usize = counts.values().sum();
-    assert_eq!(counts.len(), 11, "every kind of bug: {counts:?}");
+    assert_eq!(
+        counts.len(),
+        Bug::ALL.len(),
+        "every kind of bug: {counts:?}"
+    );
     assert!(total > 500, "{counts:?}");
 }
 
@@ -277,7 +280,7 @@ fn wrong_answers_of_a_case(case: &Case) -> Vec<Bug> {
             judged.detail
         );
 
-        let report = ForeignReport::read(&text, &case.problem, &case.reduced).unwrap();
+        let report = ForeignReport::read(&text, &case.problem, case.reduced()).unwrap();
         if bug.expected() == Label::Wrong && bug != Bug::EndlessContinuum {
             first_solution_is_refuted(case, bug, &report);
         }
@@ -289,8 +292,7 @@ fn wrong_answers_of_a_case(case: &Case) -> Vec<Bug> {
 
 fn first_solution_is_refuted(case: &Case, bug: Bug, report: &ForeignReport) {
     let solution = report.solutions[0].as_ref().unwrap();
-    let signs = BothSigns::of(&case.problem).unwrap();
-    let verdict = judge(&signs, solution, 1e-6, &mut Effort::default());
+    let verdict = judge(&case.signs, solution, 1e-6, &mut Effort::default());
 
     // (1, 0) at t = 1 + 1e-5 is wrong, and as near to the solution (1, 1e-5) at t = 1 as its
     // rounding would be.
@@ -491,11 +493,11 @@ fn threads_do_not_change_the_output() {
     let by_one = conform(&random_cases("1", "7", &first_page), &program);
     let by_four = conform(&random_cases("4", "7", &second_page), &program);
     assert_eq!(by_one, by_four);
-    assert!(by_one.text.contains("126 cases"), "{by_one:?}");
+    assert!(by_one.text.contains("150 cases"), "{by_one:?}");
 
     let page = read(&first_page);
     assert_eq!(page, read(&second_page));
-    assert!(page.contains("| random | 126 |"), "{page}");
+    assert!(page.contains("| random | 150 |"), "{page}");
     let settings = "; the pack of the program; --only random; --count 30 --seed 7; --time-limit ";
     assert!(page.contains(settings), "{page}");
 
@@ -604,4 +606,39 @@ fn cases_are_listed_printed_and_run_one_by_one() {
 
     let one = exits_with_json(1, &format!("conform --case {id} --json -- true"));
     assert_eq!(one["cases"], 1, "{one}");
+}
+
+/// `--except` leaves out what `--only` takes, in a list, a run and its settings.
+#[test]
+fn cases_are_left_out_by_their_flags() {
+    let ids = |options: &str| -> Vec<String> {
+        let list = exits(0, &format!("conform --list {options}"));
+        let lines = list.lines();
+        lines
+            .map(|line| line.split(' ').next().unwrap().to_owned())
+            .collect()
+    };
+    let all = ids("--only eigenvalue");
+    let linear = ids("--only eigenvalue --except quadratic");
+    let quadratic = ids("--only quadratic");
+    assert!(linear.len() > 20 && quadratic.len() > 20);
+    assert_eq!(linear.len() + quadratic.len(), all.len());
+    assert!(quadratic.iter().all(|id| !linear.contains(id)));
+
+    let options = "--only quadratic --except one_by_one --except random";
+    let expected = ids(options).len();
+    let run = exits_with_json(1, &format!("conform {options} --json -- true"));
+    assert_eq!(run["cases"], expected, "{run:#}");
+    let settings = run["settings"].as_str().unwrap();
+    let said = "; --only quadratic; --except one_by_one; --except random; ";
+    assert!(settings.contains(said), "{settings}");
+
+    refused(
+        "conform --only eigenvalue --except pencil -- true",
+        &["flags that leave a case to run"],
+    );
+    refused(
+        "conform --except folds -- true",
+        &["except", "a flag that --flags lists"],
+    );
 }

@@ -66,6 +66,22 @@ fn the_adapter_is_right_where_floats_suffice_and_not_on_degenerate_cases() {
     }
 }
 
+/// Values of both signs, and quadratic pencils by a companion matrix.
+#[test]
+#[cfg_attr(not(has_numpy), ignore = "needs python3 with numpy")]
+fn the_adapter_knows_eigenvalue_problems() {
+    let report = report_on(&adapter(), &["eigenvalue"]);
+
+    let quadratic = &report["flags"]["quadratic"];
+    assert!(count(quadratic, "correct") > 16, "{report:#}");
+    assert!(count(&report["labels"], "correct") > 45, "{report:#}");
+    assert_eq!(count(&report["labels"], "wrong"), 0, "{report:#}");
+
+    let for_one_sign = adapter_with("float(\"-inf\") if", "0.0 if");
+    let report = report_on(&for_one_sign, &["below_zero"]);
+    assert!(count(&report["labels"], "incomplete") > 25, "{report:#}");
+}
+
 /// Started once, it gets the same labels as started for each case.
 #[test]
 #[cfg_attr(not(has_numpy), ignore = "needs python3 with numpy")]
@@ -110,7 +126,7 @@ fn broken_adapters_get_the_right_labels() {
         "{report:#}"
     );
 
-    let without_inequalities = adapter_with(">= -TOLERANCE * np.abs(a).max()", ">= -np.inf");
+    let without_inequalities = adapter_with(">= -TOLERANCE * scale", ">= -np.inf");
     let report = report_on(&without_inequalities, &["coupled_mass"]);
     assert!(count(&report["labels"], "wrong") > 0, "{report:#}");
 

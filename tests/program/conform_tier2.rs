@@ -152,6 +152,25 @@ fn a_proved_list_is_held_against_a_search() {
     is_refused(&with_list(&draft, |list| list[0]["slip"] = json!([])));
 }
 
+/// What is proved or best known is about values of one sign.
+#[test]
+fn values_of_both_signs_have_exact_answers_only() {
+    let groups = mceip_testkit::conform::groups().unwrap();
+    let mut drafts = groups.into_iter().flat_map(|group| group.drafts);
+    let exact = drafts
+        .find(|draft| draft.problem.reflected().is_some())
+        .unwrap();
+    for completeness in [Completeness::Proved, Completeness::BestKnown] {
+        let said = Draft {
+            completeness: Some(completeness),
+            ..exact.clone()
+        };
+        let refused = Case::answer(&said, false, &Watch::nobody()).unwrap_err();
+        let text = refused.to_string();
+        assert!(text.contains("values of both signs"), "{text}");
+    }
+}
+
 /// A certified solution that a best known list does not have is counted, and is no error; an
 /// invented one is wrong there, too.
 #[test]

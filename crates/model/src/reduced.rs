@@ -126,8 +126,17 @@ impl Reduced {
     /// # Errors
     /// [`ModelError::ZeroReaction`] with z particles: some solutions of the pencil are no motion.
     pub fn without_zero(self) -> Result<Reduced, ModelError> {
+        self.require_no_zero()?;
+        Ok(self)
+    }
+
+    /// Demands that no particle is in contact with zero reaction.
+    ///
+    /// # Errors
+    /// As [`Reduced::without_zero`].
+    pub fn require_no_zero(&self) -> Result<(), ModelError> {
         match self.zero.first() {
-            None => Ok(self),
+            None => Ok(()),
             Some(&ZeroVariables { particle, .. }) => Err(ModelError::ZeroReaction { particle }),
         }
     }

@@ -22,4 +22,4 @@ pub use report::{
     BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignInterval, ForeignReport, Off,
     Reported,
 };
-pub use verdict::{Confirmed, Examined, ForeignVerdict, Refutation, judge};
+pub use verdict::{Confirmed, Examined, ForeignVerdict, Refutation, judge, negative_component};

@@ -261,7 +261,7 @@ fn judge_on_side(
 
 /// A component x_i < 0 of a complementarity variable that is further from every x_i >= 0 than
 /// [`X_RADIUS`], both x at largest |x_i| = 1.
-fn negative_component(reduced: &Reduced, candidate: &Candidate) -> Option<Refutation> {
+pub fn negative_component(reduced: &Reduced, candidate: &Candidate) -> Option<Refutation> {
     let x = scaled(&candidate.x)?;
     let slip = reduced.pencil.slip().into_iter();
     let index = slip.min_by(|i, j| x[*i].total_cmp(&x[*j]))?;

@@ -10,10 +10,10 @@ use super::flag::{Flag, of_certified, of_enumeration};
 use crate::error::TestkitError;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_engine::run::Watch;
+use mceip_engine::signs::BothSigns;
 use mceip_model::file::write_problem;
-use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Problem, Reduced};
-use mceip_oracle::{Enumeration, Solution, enumerate};
+use mceip_oracle::{Enumeration, IntegerPencil, Solution, enumerate};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -85,8 +85,8 @@ pub struct Case {
     pub flags: BTreeSet<Flag>,
     /// The problem.
     pub problem: Problem,
-    /// Its reduction.
-    pub reduced: Reduced,
+    /// The same with its reduction, and its reflection where values below 0 are asked for.
+    pub signs: BothSigns,
     /// Its answer.
     pub answer: CaseAnswer,
     /// How hard it has been found to be.
@@ -102,26 +102,27 @@ impl Case {
     /// [`TestkitError::Oracle`] for a problem beyond the plain oracle, [`TestkitError::Problem`]
     /// for a system that lacks what its unknown needs, and what [`CertifiedAnswer`] is refused for.
     pub fn answer(draft: &Draft, as_pencil: bool, watch: &Watch<'_>) -> Result<Case, TestkitError> {
-        let reduced = reduce(&draft.problem).and_then(Reduced::without_zero);
-        let reduced = reduced.map_err(|e| TestkitError::problem(&draft.id, e))?;
+        let signs = signs_of(&draft.problem).map_err(|e| TestkitError::problem(&draft.id, e))?;
+        let reduced = &signs.own().reduced;
 
         let answer = match draft.completeness {
             None => {
-                let found = enumerate(&reduced.pencil, draft.problem.window());
+                let pencil = IntegerPencil::of(&draft.problem, reduced);
+                let found = enumerate(pencil, draft.problem.real_window());
                 CaseAnswer::Enumerated(found.map_err(|source| TestkitError::Oracle {
                     case: draft.id.clone(),
                     source,
                 })?)
             }
             Some(completeness) => {
-                let found = CertifiedAnswer::of_draft(draft, &reduced, completeness, watch)?;
+                let found = CertifiedAnswer::of_draft(draft, reduced, completeness, watch)?;
                 CaseAnswer::Certified(found)
             }
         };
 
         let mut flags = match &answer {
-            CaseAnswer::Enumerated(found) => of_enumeration(&draft.problem, &reduced, found),
-            CaseAnswer::Certified(found) => of_certified(&draft.problem, &reduced, found),
+            CaseAnswer::Enumerated(found) => of_enumeration(&draft.problem, reduced, found),
+            CaseAnswer::Certified(found) => of_certified(&draft.problem, reduced, found),
         };
         flags.extend(&draft.flags);
 
@@ -130,11 +131,11 @@ impl Case {
             comment: draft.comment.clone(),
             flags,
             problem: draft.problem.clone(),
-            reduced,
+            signs,
             answer,
             difficulty: draft.difficulty,
         };
-        if as_pencil {
+        if as_pencil && matches!(case.problem.body(), Body::System(_)) {
             case.replace_by_its_pencil()
                 .map_err(|e| TestkitError::problem(&draft.id, e))?;
         }
@@ -142,14 +143,19 @@ impl Case {
         Ok(case)
     }
 
+    /// The reduction of its problem.
+    pub fn reduced(&self) -> &Reduced {
+        &self.signs.own().reduced
+    }
+
     /// Puts the reduced pencil in place of the problem. Flags and answer stay.
     fn replace_by_its_pencil(&mut self) -> Result<(), ModelError> {
-        let body = Body::Pencil(self.reduced.pencil.clone());
+        let body = Body::Pencil(self.reduced().pencil.clone());
         let window = self.problem.window().clone();
         let pencil = Problem::new(body, self.problem.unknown(), window)?;
 
         self.problem = pencil.named(self.id.clone());
-        self.reduced = reduce(&self.problem)?.without_zero()?;
+        self.signs = signs_of(&self.problem)?;
         if let CaseAnswer::Certified(answer) = &mut self.answer {
             answer.is_about_the_pencil(&self.problem);
         }
@@ -187,7 +193,7 @@ impl Case {
     pub(super) fn points(&self) -> Vec<ListedPoint> {
         match &self.answer {
             CaseAnswer::Enumerated(answer) => {
-                let slip = self.reduced.pencil.slip();
+                let slip = self.reduced().pencil.slip();
                 let of = |s: &Solution| ListedPoint::of_solution(s, &slip);
                 answer.solutions.iter().map(of).collect()
             }
@@ -206,13 +212,13 @@ impl Case {
     fn enumerated_json(&self, found: &Enumeration) -> Value {
         let mut solutions = Vec::new();
         for solution in &found.solutions {
-            let listed = Listed::of_solution(&self.problem, &self.reduced, solution);
+            let listed = Listed::of_solution(&self.problem, self.reduced(), solution);
             solutions.push(listed);
         }
 
         let mut answer = solutions_json(&Report {
             problem: &self.problem,
-            reduced: &self.reduced,
+            reduced: self.reduced(),
             solutions,
             claim: Claimed::complete_if(found.is_complete_list()),
             evidence: format!(
@@ -255,15 +261,18 @@ impl Case {
         case
     }
 
-    /// Has it one of these flags? With none given, every case has.
-    pub fn has_any(&self, flags: &[Flag]) -> bool {
-        flags.is_empty() || flags.iter().any(|flag| self.flags.contains(flag))
-    }
-
     /// Is there anything to be found?
     pub fn has_solutions(&self) -> bool {
         self.parts() > 0
     }
+}
+
+/// A problem and its reflection, each with its reduction. Particles in contact with zero reaction
+/// are refused.
+fn signs_of(problem: &Problem) -> Result<BothSigns, ModelError> {
+    let signs = BothSigns::of(problem)?;
+    signs.own().reduced.require_no_zero()?;
+    Ok(signs)
 }
 
 impl ListedPoint {

@@ -55,13 +55,22 @@ impl CertifiedAnswer {
     /// # Errors
     /// [`TestkitError::NotProved`] where the search leaves regions open or finds families,
     /// [`TestkitError::NothingKnown`] for a best known list of nothing, [`TestkitError::Answer`]
-    /// for a list that is not right, [`TestkitError`] for a problem that a search refuses.
+    /// for a list that is not right, [`TestkitError::Word`] for a problem with values of both
+    /// signs, [`TestkitError`] for one that a search refuses.
     pub(super) fn of_draft(
         draft: &Draft,
         reduced: &Reduced,
         completeness: Completeness,
         watch: &Watch<'_>,
     ) -> Result<CertifiedAnswer, TestkitError> {
+        if draft.problem.reflected().is_some() {
+            return Err(TestkitError::Word {
+                case: draft.id.clone(),
+                what: "an exact answer, where values of both signs are asked for",
+                got: completeness.word().into(),
+            });
+        }
+
         match (completeness, &draft.listed) {
             (Completeness::Proved, _) => proved(draft, reduced, watch),
             (Completeness::BestKnown, Some(report)) => {

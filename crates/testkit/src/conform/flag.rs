@@ -5,9 +5,9 @@
 //! and by `summary`, which counts outcomes by flag.
 
 use super::certified::{CertifiedAnswer, Completeness};
-use mceip_exact::{Algebraic, Rational, parse, rational, whole};
-use mceip_model::{Body, ContactState, Pencil, Problem, Reduced, System, Unknown, Window};
-use mceip_oracle::{Enumeration, Solution};
+use mceip_exact::{Algebraic, Rational, Sparse, parse, rational, whole};
+use mceip_model::{Body, ContactState, Problem, Reduced, System, Unknown};
+use mceip_oracle::{Enumeration, Solution, ValueInterval};
 use num_traits::{Signed, Zero};
 use std::collections::BTreeSet;
 
@@ -19,6 +19,12 @@ worded! {
     Lambda2 "lambda2" "A + tB built from K*, M* with the friction given; wrong sign of K1 or M1.",
     Mu "mu" "A + tB built from K0, K1; the friction coefficient of the file used although mu is \
              sought.",
+    Eigenvalue "eigenvalue" "An eigenvalue complementarity problem: t of either sign, A and B of \
+                             any kind.",
+    Quadratic "quadratic" "A + tB + t^2 C: C left out, or x of a linear form reported with its \
+                           other components.",
+    BelowZero "below_zero" "A solution with t < 0 of an eigenvalue problem: lost by a search over \
+                            t >= 0.",
     Pencil "pencil" "A pencil given directly: the order of rows and the free set.",
     System "system" "A mechanical system: elimination (10)-(16), order of variables.",
     OneByOne "one_by_one" "Order 1: codes that assume at least two variables.",
@@ -63,6 +69,23 @@ worded! {
     Random "random" "No special structure.",
 }
 
+/// Which cases are meant, by their flags.
+#[derive(Debug, Clone, Default)]
+pub struct FlagChoice {
+    /// With one of these; empty: with any flags.
+    pub only: Vec<Flag>,
+    /// But with none of these.
+    pub except: Vec<Flag>,
+}
+
+impl FlagChoice {
+    /// Is a case with these flags meant?
+    pub fn takes(&self, flags: &BTreeSet<Flag>) -> bool {
+        let has_one_of = |list: &[Flag]| list.iter().any(|flag| flags.contains(flag));
+        (self.only.is_empty() || has_one_of(&self.only)) && !has_one_of(&self.except)
+    }
+}
+
 impl Flag {
     /// Can only the maker of a case know it?
     pub(super) fn is_given(self) -> bool {
@@ -80,7 +103,7 @@ pub(super) fn of_enumeration(
     answer: &Enumeration,
 ) -> BTreeSet<Flag> {
     let mut shown = ShownFlags::of_problem(problem, reduced);
-    shown.look_at_window_ends(problem.window(), answer);
+    shown.look_at_window_ends(problem, answer);
     shown.look_at_answer(answer);
     shown.look_at_solutions(&answer.solutions, &reduced.pencil.slip());
     shown.flags
@@ -115,10 +138,19 @@ impl ShownFlags {
     fn of_problem(problem: &Problem, reduced: &Reduced) -> ShownFlags {
         let mut shown = ShownFlags::default();
         shown.look_at_problem(problem);
-        shown.look_at_pencil(&reduced.pencil);
+        match problem.body() {
+            Body::Quadratic(quadratic) => {
+                shown.look_at_matrices(&quadratic.coefficients());
+                shown.put(Flag::Quadratic, true);
+            }
+            Body::Pencil(_) | Body::System(_) => {
+                let pencil = &reduced.pencil;
+                shown.look_at_matrices(&[pencil.a(), pencil.b()]);
+                shown.put(Flag::FreeVariables, !pencil.free().is_empty());
+            }
+        }
 
-        let window = problem.window();
-        let is_bounded = window.max().is_some() || !window.min().is_zero();
+        let is_bounded = !ends_of_window(problem).is_empty();
         shown.put(Flag::Window, is_bounded);
         shown
     }
@@ -133,6 +165,7 @@ impl ShownFlags {
     fn look_at_problem(&mut self, problem: &Problem) {
         self.put(Flag::Lambda2, problem.unknown() == Unknown::Lambda2);
         self.put(Flag::Mu, problem.unknown() == Unknown::Mu);
+        self.put(Flag::Eigenvalue, problem.unknown() == Unknown::Eigenvalue);
 
         match problem.body() {
             Body::Pencil(_) | Body::Quadratic(_) => self.put(Flag::Pencil, true),
@@ -156,22 +189,16 @@ impl ShownFlags {
         }
     }
 
-    fn look_at_pencil(&mut self, pencil: &Pencil) {
-        self.put(Flag::OneByOne, pencil.order() == 1);
-        self.put(Flag::FreeVariables, !pencil.free().is_empty());
-
-        let mut entries = pencil.a().entries().chain(pencil.b().entries());
-        self.put(Flag::Scaled, entries.any(|(_, _, v)| is_extreme(v)));
+    fn look_at_matrices(&mut self, coefficients: &[&Sparse]) {
+        for matrix in coefficients {
+            self.put(Flag::OneByOne, matrix.rows() == 1);
+            let mut entries = matrix.entries();
+            self.put(Flag::Scaled, entries.any(|(_, _, v)| is_extreme(v)));
+        }
     }
 
-    fn look_at_window_ends(&mut self, window: &Window, answer: &Enumeration) {
-        // Zero is the end of every window without a lower bound.
-        let mut ends = Vec::new();
-        if !window.min().is_zero() {
-            ends.push(window.min());
-        }
-        ends.extend(window.max());
-
+    fn look_at_window_ends(&mut self, problem: &Problem, answer: &Enumeration) {
+        let ends = ends_of_window(problem);
         let of_solutions = answer.solutions.iter().map(|s| &s.value);
         let of_cones = answer.cones.iter().map(|c| &c.value);
         for value in of_solutions.chain(of_cones) {
@@ -190,6 +217,17 @@ impl ShownFlags {
         self.put(Flag::SingularPencil, !answer.continua.is_empty());
         self.put(Flag::Continuum, !answer.ranges.is_empty());
         self.put(Flag::FreeOnly, answer.is_outside_propositions());
+
+        let zero = Rational::zero();
+        let is_negative = |value: &Algebraic| value.clone().cmp_rational(&zero).is_lt();
+        let begins_below_zero = |piece: &ValueInterval| match &piece.from {
+            Some(end) => is_negative(&end.value),
+            None => true,
+        };
+        let mut pieces = answer.ranges.iter().flat_map(|range| &range.pieces);
+        let has_one_below_zero = answer.cones.iter().any(|cone| is_negative(&cone.value))
+            || pieces.any(begins_below_zero);
+        self.put(Flag::BelowZero, has_one_below_zero);
     }
 
     /// Looks at each solution, and at each two that follow each other in order of value.
@@ -199,8 +237,9 @@ impl ShownFlags {
             value.try_rational();
             self.put(Flag::Irrational, value.as_rational().is_none());
 
-            let is_zero = value.cmp_rational(&Rational::zero()).is_eq();
-            self.put(Flag::ZeroValue, is_zero);
+            let from_zero = value.cmp_rational(&Rational::zero());
+            self.put(Flag::ZeroValue, from_zero.is_eq());
+            self.put(Flag::BelowZero, from_zero.is_lt());
             self.put(Flag::RepeatedRoot, solution.multiplicity > 1);
             self.put(Flag::Biactive, !solution.biactive.is_empty());
             self.put(Flag::TinyComponent, has_tiny_component(solution, slip));
@@ -214,6 +253,19 @@ impl ShownFlags {
             self.put(Flag::CloseValues, !are_equal && are_close(lower, upper));
         }
     }
+}
+
+/// The ends that the problem gives to its window: zero is one only where values below it could be
+/// asked for.
+fn ends_of_window(problem: &Problem) -> Vec<Rational> {
+    let window = problem.real_window();
+    let is_given = |min: &&Rational| problem.unknown() == Unknown::Eigenvalue || !min.is_zero();
+    let ends = window
+        .min()
+        .filter(is_given)
+        .into_iter()
+        .chain(window.max());
+    ends.cloned().collect()
 }
 
 /// Is the number not zero, and above 1e5 or below 1e-5 in size?
@@ -252,6 +304,21 @@ fn has_tiny_component(solution: &Solution, slip: &[usize]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_case_is_meant_by_one_flag_and_left_out_by_another() {
+        let fold = BTreeSet::from([Flag::Fold, Flag::Pencil]);
+        let choice = |only: &[Flag], except: &[Flag]| FlagChoice {
+            only: only.to_vec(),
+            except: except.to_vec(),
+        };
+
+        assert!(choice(&[], &[]).takes(&fold));
+        assert!(choice(&[Flag::Fold, Flag::Mu], &[Flag::Mu]).takes(&fold));
+        assert!(!choice(&[Flag::Mu], &[]).takes(&fold));
+        assert!(!choice(&[], &[Flag::Pencil]).takes(&fold));
+        assert!(!choice(&[Flag::Fold], &[Flag::Fold]).takes(&fold));
+    }
 
     #[test]
     fn words_are_distinct_and_read_back() {

@@ -1,10 +1,12 @@
 //! The groups of the pack: which problems, and what only their maker knows about them.
 //!
 //! Output: drafts, each with a comment and the flags that cannot be read off the problem. Nothing
-//! is random but for the last two groups, which have a fixed seed. Called by `mceip conform` and by
-//! the test that writes the pack; [`random_draft`] makes further cases for `run`.
+//! is random but for the last two groups and the end of the one before, with a fixed seed.
+//! Called by `mceip conform` and by the test that writes the pack; [`random_draft`] makes further
+//! cases for `run`.
 
 use super::case::{Draft, Group};
+use super::eigenvalues::eigenvalues;
 use super::flag::Flag;
 use crate::error::TestkitError;
 use crate::families::{AngleFriction, Corner, I2, I3, Instance, SIGNS, SmallRows};
@@ -35,6 +37,7 @@ pub fn groups() -> Result<Vec<Group>, TestkitError> {
         thresholds_of_folds()?,
         graphs()?,
         block()?,
+        eigenvalues(SEED)?,
         random(
             "random-pencils",
             "random admissible pencils, n_s 1 to 6, n_f 0 to 3",

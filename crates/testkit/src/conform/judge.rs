@@ -7,11 +7,11 @@
 //!
 //! The rule for floats: a reported solution counts if `certify` turns it into a claim (value within
 //! 1e-4 of 1 + |value|, x within 1e-3 with e'x_s = 1, support by several guesses), and the exact
-//! solution of that claim is in the answer. Scale, order and repetitions do not matter. The answer
-//! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
-//! and every continuum (its intervals, or a solution on its slip set) is met. A reported solution
-//! that is not certified is inaccurate where one of the listed solutions is near, and wrong
-//! elsewhere.
+//! solution of that claim is in the answer. Where values of both signs are asked for, one next to 0
+//! is certified on both sides. Scale, order and repetitions do not matter. The answer is complete
+//! if every listed solution, every cone (a solution inside it, with its whole slip set) and every
+//! continuum (its intervals, or a solution on its slip set) is met. A reported solution that is not
+//! certified is inaccurate where one of the listed solutions is near, and wrong elsewhere.
 //!
 //! Input: a case and the text that a program printed. Output: a label and the first reason for it.
 //! Called by `run` for each case of the plan.
@@ -21,14 +21,17 @@ use super::certified::CertifiedAnswer;
 use super::nearest::Distance;
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_check::{AcceptedClaim, Place};
-use mceip_engine::certify::Certifier;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{Certifier, NotCertified};
 use mceip_engine::foreign::{
     BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport, Reported,
+    negative_component,
 };
-use mceip_engine::multistart::{exact_value, integer_x, same, support};
+use mceip_engine::multistart::{exact_value, integer_x, same};
+use mceip_engine::signs::{BothSigns, OfSign};
 use mceip_engine::tolerance::VALUE_RADIUS;
 use mceip_exact::{Algebraic, Poly, Rational, from_f64, nearest_decimal, to_decimal};
-use mceip_oracle::{End, Enumeration, Solution, SupportRange, is_between};
+use mceip_oracle::{End, Enumeration, GivenPencil, Solution, SupportRange, is_between};
 use num_traits::{One, Signed};
 
 worded! {
@@ -99,7 +102,7 @@ pub(super) fn judge_until(case: &Case, text: &str, is_over: &dyn Fn() -> bool) -
         return Judgement::new(Label::Malformed, "it printed nothing on stdout");
     }
 
-    let report = match ForeignReport::read(text, &case.problem, &case.reduced) {
+    let report = match ForeignReport::read(text, &case.problem, case.reduced()) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e @ ForeignError::Digits { .. }) => {
@@ -140,6 +143,60 @@ enum NoPlace {
     Near { distance: Distance, why: String },
     /// It is false.
     False(String),
+}
+
+/// A reported solution that was certified.
+struct CertifiedPoint {
+    claim: Claim,
+    verdict: AcceptedClaim,
+    /// Is the claim one of the reflected problem, minus its value the one that was reported?
+    is_reflected: bool,
+}
+
+/// Certifiers of the problem and of its reflection.
+struct Certifiers<'a> {
+    signs: &'a BothSigns,
+    own: Certifier<'a>,
+    reflected: Option<Certifier<'a>>,
+}
+
+impl<'a> Certifiers<'a> {
+    fn of(signs: &'a BothSigns) -> Certifiers<'a> {
+        let certifier = |side: &'a OfSign| Certifier::new(&side.problem, &side.reduced.pencil);
+        Certifiers {
+            signs,
+            own: certifier(signs.own()),
+            reflected: signs.reflected().map(certifier),
+        }
+    }
+
+    /// Next to 0 on both sides, the likelier one first.
+    fn certify(&self, reported: &Candidate) -> Result<CertifiedPoint, NotCertified> {
+        let (likelier, other) = self.signs.near(reported);
+        let found = self.certify_on(likelier, reported);
+        match other {
+            Some(other) if found.is_err() => self.certify_on(other, reported).or(found),
+            _ => found,
+        }
+    }
+
+    fn certify_on(
+        &self,
+        side: &OfSign,
+        reported: &Candidate,
+    ) -> Result<CertifiedPoint, NotCertified> {
+        let is_reflected = side.problem.is_reflected();
+        let certifier = match &self.reflected {
+            Some(reflected) if is_reflected => reflected,
+            _ => &self.own,
+        };
+        let (claim, verdict) = certifier.certify_with_verdict(&side.candidate(reported))?;
+        Ok(CertifiedPoint {
+            claim,
+            verdict,
+            is_reflected,
+        })
+    }
 }
 
 /// Which parts of a case's answer a report has met.
@@ -196,7 +253,7 @@ impl MetParts<'_> {
         report: &ForeignReport,
         is_over: &dyn Fn() -> bool,
     ) -> Result<Option<String>, Judgement> {
-        let certifier = Certifier::new(&self.case.problem, &self.case.reduced.pencil);
+        let certifiers = Certifiers::of(&self.case.signs);
         let mut first_inaccurate = None;
 
         for (k, solution) in report.solutions.iter().enumerate() {
@@ -206,7 +263,7 @@ impl MetParts<'_> {
                 return Err(Judgement::new(Label::Undecided, why));
             }
 
-            match self.place_solution(solution, &certifier) {
+            match self.place_solution(solution, &certifiers) {
                 Ok(()) => (),
                 Err(NoPlace::Near { distance, why }) => {
                     let text = || format!("solution {k}: {distance}; {why}");
@@ -230,7 +287,7 @@ impl MetParts<'_> {
     fn place_solution(
         &mut self,
         solution: &Result<Reported, BadPoint>,
-        certifier: &Certifier<'_>,
+        certifiers: &Certifiers<'_>,
     ) -> Result<(), NoPlace> {
         let candidate = match solution {
             Ok(reported) => &reported.candidate,
@@ -238,28 +295,35 @@ impl MetParts<'_> {
         };
 
         let value = candidate.value;
-        let (claim, verdict) = match certifier.certify_with_verdict(candidate) {
+        let found = match certifiers.certify(candidate) {
             Ok(certified) => certified,
             Err(why) => {
                 let why = format!("value {value} is not certified: {why}");
-                return Err(match Distance::to_nearest(self.case, candidate) {
-                    Some(distance) => NoPlace::Near { distance, why },
-                    None => NoPlace::False(why),
-                });
+                if let Some(distance) = Distance::to_nearest(self.case, candidate) {
+                    return Err(NoPlace::Near { distance, why });
+                }
+                return Err(NoPlace::False(
+                    match negative_component(self.case.reduced(), candidate) {
+                        Some(negative) => format!("value {value}: {negative}"),
+                        None => why,
+                    },
+                ));
             }
         };
 
         let case = self.case;
-        let is_placed = match (&case.answer, &claim) {
-            (CaseAnswer::Certified(answer), _) => self.place_accepted(claim, &verdict, answer),
+        let is_placed = match (&case.answer, &found.claim) {
+            (CaseAnswer::Certified(answer), _) => {
+                self.place_accepted(found.claim, &found.verdict, answer)
+            }
             (CaseAnswer::Enumerated(answer), Claim::ExactSolution(c)) => {
-                self.place_exact(&claim, c, answer)
+                self.place_exact(&found, c, answer)
             }
             // A lifted one is never made here; like a box it is placed by value and support.
             (
                 CaseAnswer::Enumerated(answer),
                 Claim::EnclosedSolution(_) | Claim::LiftedSolution(_),
-            ) => self.place_box(&claim, answer),
+            ) => self.place_box(&found, answer),
         };
         if !is_placed {
             return Err(NoPlace::False(format!(
@@ -290,13 +354,24 @@ impl MetParts<'_> {
     }
 
     /// Marks what an exact claim meets; false if the answer does not hold it.
-    fn place_exact(&mut self, claim: &Claim, c: &ExactSolution, answer: &Enumeration) -> bool {
-        let Some(value) = exact_value(claim) else {
+    fn place_exact(
+        &mut self,
+        found: &CertifiedPoint,
+        c: &ExactSolution,
+        answer: &Enumeration,
+    ) -> bool {
+        let Some(mut value) = exact_value(&found.claim) else {
             return false;
         };
 
-        let x = integer_x(c);
-        if !answer.contains(&self.case.reduced.pencil, &value, &x) {
+        let given = GivenPencil::of(&self.case.problem, self.case.reduced());
+        let mut x = integer_x(c);
+        x.truncate(given.order()); // without z of the linear form of a quadratic pencil
+        if found.is_reflected {
+            value = value.negated();
+            x = x.iter().map(Poly::reflected).collect();
+        }
+        if !answer.contains(given, &value, &x) {
             return false;
         }
 
@@ -326,8 +401,8 @@ impl MetParts<'_> {
 
     /// A box holds one solution of its support: the listed one with this support and a value in the
     /// box.
-    fn place_box(&mut self, claim: &Claim, answer: &Enumeration) -> bool {
-        let Claim::EnclosedSolution(c) = claim else {
+    fn place_box(&mut self, found: &CertifiedPoint, answer: &Enumeration) -> bool {
+        let Claim::EnclosedSolution(c) = &found.claim else {
             return false;
         };
 
@@ -335,12 +410,17 @@ impl MetParts<'_> {
         let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else {
             return false;
         };
-        let lo = &center.0 - &radius.0;
-        let hi = &center.0 + &radius.0;
+        let center = if found.is_reflected {
+            -&center.0
+        } else {
+            center.0.clone()
+        };
+        let lo = &center - &radius.0;
+        let hi = &center + &radius.0;
 
         let mut is_placed = false;
         for (k, listed) in answer.solutions.iter().enumerate() {
-            if listed.slip == support(claim) && is_between(&listed.value, &lo, &hi) {
+            if listed.slip == c.support && is_between(&listed.value, &lo, &hi) {
                 self.solutions[k] = true;
                 is_placed = true;
             }
@@ -422,16 +502,12 @@ fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
     }
 
     for (piece, interval) in range.pieces.iter().zip(&reported.intervals) {
-        let same_lower_end = match &piece.from {
-            Some(end) => same_end(end, &interval.from),
-            None => false, // what is reported begins somewhere
-        };
-        let same_upper_end = match (&piece.to, &interval.to) {
+        let same = |end: &Option<End>, reported: &Option<ForeignEnd>| match (end, reported) {
             (Some(end), Some(reported)) => same_end(end, reported),
             (None, None) => true,
             _ => false,
         };
-        if !same_lower_end || !same_upper_end {
+        if !same(&piece.from, &interval.from) || !same(&piece.to, &interval.to) {
             return false;
         }
     }

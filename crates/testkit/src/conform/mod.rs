@@ -16,6 +16,7 @@
 mod case;
 mod certified;
 mod compare;
+mod eigenvalues;
 mod flag;
 mod groups;
 mod judge;
@@ -32,7 +33,7 @@ mod wrong;
 pub use case::{Case, CaseAnswer, Difficulty, Draft, Group};
 pub use certified::{CertifiedAnswer, Completeness};
 pub use compare::{ConformComparison, ConformRun, ProfileSteps, measured_difficulty};
-pub use flag::Flag;
+pub use flag::{Flag, FlagChoice};
 pub use groups::{groups, random_draft};
 pub use judge::{Judgement, Label, judge_report};
 pub use pack::{

@@ -28,7 +28,7 @@ impl Distance {
     /// From the solution of the answer that is nearest in x, among those with its positive
     /// components that are near; none where there is no such solution.
     pub(super) fn to_nearest(case: &Case, reported: &Candidate) -> Option<Distance> {
-        let slip = case.reduced.pencil.slip();
+        let slip = case.reduced().pencil.slip();
         let mut nearest: Option<Distance> = None;
 
         for listed in case.points() {

@@ -26,7 +26,7 @@ pub const PACK_FORMAT: &str = "mceip-pack/1";
 pub const INDEX_FORMAT: &str = "mceip-pack-index/1";
 /// The version of the cases. Major: a case is changed or removed, or its answer corrected; minor:
 /// cases or fields are added; patch: words only.
-pub const PACK_VERSION: &str = "1.1.0";
+pub const PACK_VERSION: &str = "1.2.0";
 
 /// Cases that belong together by size: a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,7 +6,7 @@
 
 use super::case::{Case, Difficulty, Draft, Group};
 use super::certified::Completeness;
-use super::flag::Flag;
+use super::flag::{Flag, FlagChoice};
 use super::groups::random_draft;
 use super::judge::{Judgement, Label, judge_until};
 use super::lines::LineProgram;
@@ -36,8 +36,8 @@ pub struct ConformPlan {
     pub seed: u64,
     /// Send reduced pencils in place of mechanical systems.
     pub as_pencil: bool,
-    /// Only cases with one of these flags; empty: all.
-    pub only: Vec<Flag>,
+    /// Which cases.
+    pub choice: FlagChoice,
     /// Does the program answer many problems, a line each, or is it started for each?
     pub by_lines: bool,
     /// Limits of one answer.
@@ -147,7 +147,7 @@ impl Run<'_> {
             Err(_) if self.watch.is_cancelled() => return Ok(None),
             Err(error) => return Err(error),
         };
-        let timed = if case.has_any(&self.plan.only) {
+        let timed = if self.plan.choice.takes(&case.flags) {
             self.judgement(&case, place)?
         } else {
             None

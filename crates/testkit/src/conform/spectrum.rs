@@ -7,7 +7,6 @@
 //! answers of them.
 
 use mceip_exact::{Algebraic, Poly, Rational, Sign, kernel_at, roots_in};
-use mceip_model::Pencil;
 use mceip_oracle::{IntegerPencil, Solution};
 
 /// What the eigenvector of a support looks like.
@@ -22,15 +21,13 @@ pub(super) enum EigenvectorKind {
 }
 
 /// Eigenpairs with one-dimensional kernels of all supports but the empty one, with values in [min,
-/// max].
+/// max]. `slip` are the complementarity variables.
 pub(super) fn eigenpairs(
-    pencil: &Pencil,
+    pencil: &IntegerPencil<'_>,
+    slip: &[usize],
     min: &Rational,
     max: Option<&Rational>,
 ) -> Vec<(EigenvectorKind, Solution)> {
-    let integers = IntegerPencil::from(pencil);
-    let slip = pencil.slip();
-
     let mut out = Vec::new();
     for mask in 1..1u64 << slip.len() {
         let mut support = Vec::new();
@@ -39,7 +36,7 @@ pub(super) fn eigenpairs(
                 support.push(i);
             }
         }
-        out.extend(eigenpairs_of(&integers, &support, min, max));
+        out.extend(eigenpairs_of(pencil, &support, min, max));
     }
     out
 }

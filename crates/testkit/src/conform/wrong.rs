@@ -9,8 +9,10 @@ use super::judge::Label;
 use super::spectrum::{EigenvectorKind, eigenpairs};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_exact::{Rational, parse, rational, whole};
-use mceip_model::Window;
-use mceip_oracle::{Enumeration, Solution, enumerate};
+use mceip_model::{RealWindow, Unknown, Window};
+use mceip_oracle::{
+    End, Enumeration, GivenPencil, IntegerPencil, Solution, ValueInterval, enumerate,
+};
 use num_traits::{Signed, Zero};
 use serde_json::{Value, json};
 
@@ -24,6 +26,7 @@ worded! {
     ComplementIgnored "complement_ignored"
         "a positive eigenvector of a support with y < 0 elsewhere",
     NegativeValue "negative_value" "t < 0: not an answer to (12) or (21)",
+    NegativeDropped "negative_dropped" "solutions with t < 0 are missing: both signs are asked for",
     RoundedToZero "rounded_to_zero"
         "its value is negative and was rounded to 0: below the threshold nothing exists",
     OutsideWindow "outside_window" "a solution outside the window asked for",
@@ -38,7 +41,7 @@ impl Bug {
     /// The label that a report with it must get.
     pub fn expected(self) -> Label {
         match self {
-            Bug::Dropped | Bug::MergedByValue => Label::Incomplete,
+            Bug::Dropped | Bug::MergedByValue | Bug::NegativeDropped => Label::Incomplete,
             _ => Label::Wrong,
         }
     }
@@ -84,7 +87,7 @@ impl Case {
         }
 
         if !self.has_solutions() {
-            let zeros = vec!["0"; self.reduced.pencil.order()];
+            let zeros = vec!["0"; GivenPencil::of(&self.problem, self.reduced()).order()];
             let entry = json!({ "value": "1", "x": zeros });
             out.push(WrongAnswer::new(Bug::ZeroVector, vec![entry]));
         }
@@ -98,7 +101,7 @@ impl Case {
         answer: &Enumeration,
         points: &[ListedPoint],
     ) -> Vec<WrongAnswer> {
-        let slip = self.reduced.pencil.slip();
+        let slip = self.reduced().pencil.slip();
         let mut out = Vec::new();
         for spurious in spurious(self) {
             let mut entry = ListedPoint::of_solution(&spurious.pair, &slip).entry();
@@ -114,6 +117,7 @@ impl Case {
         }
 
         out.extend(incomplete(answer, points));
+        out.extend(without_values_below_zero(answer, points));
         out.extend(endless(answer));
         out
     }
@@ -143,7 +147,8 @@ fn negated(decimal: &str) -> String {
     }
 }
 
-/// The solution with 1.01 value + 0.01, where no support is singular (else that may be a solution).
+/// The solution with 1.01 value + 0.01, or - 0.01 for a value below 0, where no support is singular
+/// (else that may be a solution).
 fn shifted(case: &Case, point: &ListedPoint) -> Option<Value> {
     if let CaseAnswer::Enumerated(answer) = &case.answer
         && !answer.continua.is_empty()
@@ -152,7 +157,8 @@ fn shifted(case: &Case, point: &ListedPoint) -> Option<Value> {
     }
 
     let value = parse(&point.value).ok()?;
-    let shifted = value * rational(101, 100) + rational(1, 100);
+    let away_from_zero = rational(if value.is_negative() { -1 } else { 1 }, 100);
+    let shifted = value * rational(101, 100) + away_from_zero;
     let mut out = point.entry();
     out["value"] = json!(shifted.to_string());
     Some(out)
@@ -183,6 +189,20 @@ fn incomplete(answer: &Enumeration, points: &[ListedPoint]) -> Option<WrongAnswe
     Some(WrongAnswer::new(Bug::Dropped, listed))
 }
 
+/// The solutions with values that are not negative, where there are others.
+fn without_values_below_zero(answer: &Enumeration, points: &[ListedPoint]) -> Option<WrongAnswer> {
+    let is_negative = |s: &Solution| s.value.clone().cmp_rational(&Rational::zero()).is_lt();
+    let mut kept = Vec::new();
+    for (solution, point) in answer.solutions.iter().zip(points) {
+        if !is_negative(solution) {
+            kept.push(point.entry());
+        }
+    }
+
+    let has_dropped = kept.len() < points.len();
+    has_dropped.then(|| WrongAnswer::new(Bug::NegativeDropped, kept))
+}
+
 /// The first of two neighbours that share a value.
 fn first_with_the_value_of_the_next(solutions: &[Solution]) -> Option<usize> {
     solutions
@@ -198,15 +218,17 @@ struct Spurious {
 
 /// Eigenpairs that are no solutions, the first of each kind.
 fn spurious(case: &Case) -> Vec<Spurious> {
-    let pencil = &case.reduced.pencil;
-    let slip = pencil.slip();
+    let pencil = &IntegerPencil::of(&case.problem, case.reduced());
+    let slip = case.reduced().pencil.slip();
     if slip.len() > SPECTRUM_SLIP {
         return Vec::new();
     }
 
-    let window = case.problem.window();
+    let window = case.problem.real_window();
+    let far_below = whole(-1_000_000);
+    let min = window.min().unwrap_or(&far_below);
     let mut found = Vec::new();
-    for (kind, pair) in eigenpairs(pencil, window.min(), window.max()) {
+    for (kind, pair) in eigenpairs(pencil, &slip, min, window.max()) {
         match kind {
             EigenvectorKind::MixedX if is_clearly_mixed(&pair, &slip) => {
                 keep_the_first(&mut found, Bug::MixedSigns, pair);
@@ -216,9 +238,10 @@ fn spurious(case: &Case) -> Vec<Spurious> {
         }
     }
 
-    if window.min().is_zero() {
+    let is_eigenvalue = case.problem.unknown() == Unknown::Eigenvalue;
+    if min.is_zero() && !is_eigenvalue {
         let zero = Rational::zero();
-        for (kind, pair) in eigenpairs(pencil, &whole(-1_000_000), Some(&zero)) {
+        for (kind, pair) in eigenpairs(pencil, &slip, &far_below, Some(&zero)) {
             let is_negative = pair.value.clone().cmp_rational(&zero).is_lt();
             if kind != EigenvectorKind::Admissible || !is_negative {
                 continue;
@@ -254,29 +277,31 @@ fn is_clearly_mixed(s: &Solution, slip: &[usize]) -> bool {
 
 /// A solution of the problem without its window, clearly outside of that.
 fn outside(case: &Case) -> Option<Solution> {
-    let window = case.problem.window();
-    if window.max().is_none() && window.min().is_zero() {
+    let window = case.problem.real_window();
+    let everywhere = match case.problem.unknown() {
+        Unknown::Eigenvalue => RealWindow::ALL,
+        Unknown::Lambda2 | Unknown::Mu => RealWindow::from(&Window::all()),
+    };
+    if window == everywhere {
         return None;
     }
 
-    let all = enumerate(&case.reduced.pencil, &Window::all()).ok()?;
+    let pencil = IntegerPencil::of(&case.problem, case.reduced());
+    let all = enumerate(pencil, everywhere).ok()?;
     all.solutions
         .into_iter()
-        .find(|s| is_clearly_outside(s, window))
+        .find(|s| is_clearly_outside(s, &window))
 }
 
 /// Is the value outside the window, and not near an end of it?
-fn is_clearly_outside(s: &Solution, window: &Window) -> bool {
+fn is_clearly_outside(s: &Solution, window: &RealWindow) -> bool {
     let Ok(value) = parse(&s.decimal(17)) else {
         return false;
     };
 
-    let is_below = value < *window.min() && is_far(&value, window.min());
-    let is_above = match window.max() {
-        Some(max) => value > *max && is_far(&value, max),
-        None => false,
-    };
-    is_below || is_above
+    let is_below = |min: &Rational| value < *min && is_far(&value, min);
+    let is_above = |max: &Rational| value > *max && is_far(&value, max);
+    window.min().is_some_and(is_below) || window.max().is_some_and(is_above)
 }
 
 /// Is the distance more than 1 per cent of 1 + |v|?
@@ -286,12 +311,15 @@ fn is_far(v: &Rational, from: &Rational) -> bool {
     distance > rational(1, 100) * size
 }
 
-/// A continuum reported for all values from 0, where it is not.
+/// A continuum reported for all values from 0, some of which it has not.
 fn endless(answer: &Enumeration) -> Option<WrongAnswer> {
-    let range = answer.ranges.iter().find(|r| {
-        let has_an_end = r.pieces.iter().any(|p| p.to.is_some());
-        r.pieces.len() > 1 || has_an_end
-    })?;
+    let begins_above_zero = |end: &End| end.value.clone().cmp_rational(&Rational::zero()).is_gt();
+    // A report that does not say whether 0 belongs to it is not held against an open end there.
+    let has_all_from_zero = |piece: &ValueInterval| {
+        piece.to.is_none() && !piece.from.as_ref().is_some_and(begins_above_zero)
+    };
+    let mut ranges = answer.ranges.iter();
+    let range = ranges.find(|range| !range.pieces.iter().any(has_all_from_zero))?;
 
     let interval = json!({ "from": { "value": "0" }, "to": null });
     let mut answer = WrongAnswer::new(Bug::EndlessContinuum, Vec::new());
