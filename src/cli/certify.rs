@@ -18,7 +18,7 @@ use mceip_engine::multistart::{exact_value, is_about, same_x};
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
 use mceip_engine::signs::{BothSigns, OfSign};
-use mceip_exact::{Rational, enclosing_decimals};
+use mceip_exact::{Algebraic, Rational, enclosing_decimals};
 use mceip_model::{Body, Problem, RealWindow, System, Unknown};
 use std::path::{Path, PathBuf};
 
@@ -111,6 +111,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         judged.lift(&problem, system);
     }
 
+    if let Some(negative) = &mut judged_negative {
+        negative.leave_out_zeros_of(&judged);
+    }
     let mut files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
     if let (Some(reflected), Some(mut negative)) = (signs.reflected(), judged_negative) {
         let claims = std::mem::take(&mut negative.claims);
@@ -372,6 +375,15 @@ impl Judged {
         claims.any(|(claim, verdict)| is_about(verdict, exact_value(claim), solution))
     }
 
+    /// Takes out solutions with the value 0 that the other side has: both sides have that value.
+    fn leave_out_zeros_of(&mut self, other: &Judged) {
+        let is_zero = |mut value: Algebraic| value.cmp_rational(&Rational::default()).is_eq();
+        self.claims.retain(|claim| {
+            let has_value_zero = exact_value(claim).is_some_and(is_zero);
+            !(has_value_zero && other.claims.iter().any(|known| same_x(known, claim)))
+        });
+    }
+
     /// Takes out what a cover lists of a solution that a later point of the report has claimed.
     fn leave_out_claimed(&mut self) {
         let refused = std::mem::take(&mut self.refused);
@@ -384,8 +396,13 @@ impl Judged {
         let disproved = self.count(ExaminationVerdict::Disproved);
         let undecided = self.count(ExaminationVerdict::Undecided);
         let certified = claimed + self.count(ExaminationVerdict::Present);
+        let noun = if certified == 1 {
+            "solution"
+        } else {
+            "solutions"
+        };
         aside(&format!(
-            "{certified} distinct solutions certified, {disproved} of {reported} disproved, \
+            "{certified} distinct {noun} certified, {disproved} of {reported} disproved, \
              {undecided} undecided"
         ));
     }
