@@ -5,16 +5,17 @@ use super::{colour, wrapped};
 use mceip_engine::multistart::SearchError;
 use mceip_engine::run::MAX_THREADS;
 use mceip_exact::{Rational, parse};
-use mceip_model::file::{read_from, read_problem, read_problem_file, read_text};
+use mceip_model::file::{folder_of, read_from, read_problem, read_text};
 use mceip_model::{ModelError, Problem, RealWindow, Unknown, Window};
 use mceip_oracle::OracleError;
 use mceip_testkit::TestkitError;
 use num_traits::Signed as _;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::io::{ErrorKind, IsTerminal as _, Write as _};
 use std::ops::RangeInclusive;
-use std::path::Path;
-use std::sync::OnceLock;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 /// Exit codes (README, and `mceip --help`).
@@ -243,12 +244,7 @@ const SHOWN: usize = 60;
 
 /// Reads a problem file (`-`: stdin), with another window if one is given; errors name the file.
 pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliError> {
-    let read = if path == Path::new("-") {
-        read_problem(&text("the problem", path)?, Path::new("."))
-    } else {
-        read_problem_file(path)
-    };
-
+    let read = read_problem(&text("the problem", path)?, folder_of(path));
     let problem = read.map_err(|source| CliError::file(path, source))?;
 
     match window {
@@ -262,20 +258,29 @@ pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliErro
 
 /// Reads a text file (`-`: stdin); errors name the file.
 pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
-    let read = if path == Path::new("-") {
-        read_stdin(what)
-    } else {
+    let is_stdin = path == Path::new("-");
+    let read = if path.is_file() && !is_stdin {
         read_text(what, path)
+    } else {
+        read_once(what, path)
     };
 
     read.map_err(|source| CliError::file(path, source))
 }
 
-/// Stdin, read once and kept: a command may look at it twice, or name it for two of its inputs by
-/// mistake.
-fn read_stdin(what: &'static str) -> Result<String, ModelError> {
-    static TEXT: OnceLock<Result<String, ModelError>> = OnceLock::new();
-    let read = TEXT.get_or_init(|| read_from(what, "stdin", std::io::stdin().lock()));
+/// Stdin or a pipe, read once and kept: a command may look at it twice, or name it for two of its
+/// inputs by mistake.
+fn read_once(what: &'static str, path: &Path) -> Result<String, ModelError> {
+    static TEXTS: Mutex<BTreeMap<PathBuf, Result<String, ModelError>>> =
+        Mutex::new(BTreeMap::new());
+    let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let read = texts.entry(path.to_owned()).or_insert_with(|| {
+        if path == Path::new("-") {
+            read_from(what, "stdin", std::io::stdin().lock())
+        } else {
+            read_text(what, path)
+        }
+    });
     read.clone()
 }
 

@@ -116,6 +116,17 @@ fn stdin_is_a_file() {
 
     let twice = run_with_input(&["check", "-", "-"], &report);
     assert_eq!(twice.status.code(), Some(2));
+
+    // A pipe by its name is read once, too.
+    if cfg!(target_os = "linux") {
+        let solved = run_with_input(&["solve", "/dev/stdin", "--starts", "4"], &problem);
+        assert_eq!(solved.status.code(), Some(0), "{solved:?}");
+
+        let folder = Folder::new();
+        let report = folder.write("report.json", &report);
+        let checked = run_with_input(&["check", "/dev/stdin", &report], &problem);
+        assert_eq!(checked.status.code(), Some(1), "{checked:?}");
+    }
 }
 
 /// A diagonal matrix as a sparse one of a problem file.
