@@ -49,7 +49,7 @@ pub(super) struct Args {
     /// plain problem: its solution file (mceip-mcp-solution/1).
     certificate: PathBuf,
     /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper
-    /// end); one that does not is rejected.
+    /// end; of eigenvalues a empty or -inf: no lower end); one that does not is rejected.
     #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
     /// Of somebody's solutions: the relative error up to which a value and x (scaled to largest

@@ -289,8 +289,8 @@ pub(super) fn parse_window(text: &str, unknown: Unknown) -> Result<RealWindow, C
     let expected = match unknown {
         Unknown::Lambda2 | Unknown::Mu => "a,b with 0 <= a <= b (b may be inf)",
         Unknown::Eigenvalue => {
-            "a,b with a <= b and 0 <= b (a may be -inf, b inf; for values below 0 alone, b of the \
-             problem with its sign changed)"
+            "a,b with a <= b and 0 <= b (a may be -inf, b inf; for values below 0 alone change the \
+             sign of the matrix b, and those of the values)"
         }
     };
     window_of(text, unknown).ok_or_else(|| CliError::option("window", expected, text))

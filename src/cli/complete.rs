@@ -22,7 +22,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1).
     file: PathBuf,
-    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
+    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end; of
+    /// eigenvalues a empty or -inf: no lower end).
     #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
     /// Write the certificate to this file; after an interrupt it holds what is left open, and so it

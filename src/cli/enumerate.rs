@@ -15,7 +15,8 @@ use std::path::PathBuf;
 pub(super) struct Args {
     /// Problem file (mceip-problem/1).
     file: PathBuf,
-    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
+    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end; of
+    /// eigenvalues a empty or -inf: no lower end).
     #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
     /// Print mceip-solutions/1.

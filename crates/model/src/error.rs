@@ -545,7 +545,7 @@ fn remedy_for(what: &str) -> &'static str {
 
 /// What to do for a window that ends below 0.
 const BELOW_ZERO_ALONE: &str =
-    " (for values below 0 alone take -b in place of b: they change their sign)";
+    " (for values below 0 alone change the sign of the matrix b, and those of the values)";
 
 const BESIDE_PROBLEM: &str = "`mceip check PROBLEM CERTIFICATE` reads it beside its problem";
 

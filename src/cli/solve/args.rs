@@ -22,7 +22,8 @@ pub(in crate::cli) struct Args {
     /// Seed of the random starts.
     #[arg(long, default_value_t = 1)]
     pub(super) seed: u64,
-    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
+    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end; of
+    /// eigenvalues a empty or -inf: no lower end).
     #[arg(long, allow_hyphen_values = true)]
     pub(super) window: Option<String>,
     /// Print the linearisations and pivots of the first run.
