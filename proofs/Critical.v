@@ -15,6 +15,8 @@
                            (Regular.v);
      BoxWhole w w'         a form is positive, for the whole pencils at both ends of the interval
                            of mu;
+     BoxSigned c f f'      the forms of enclosed parts of all variables, free ones included, are
+                           positive (Signed.v), for members of a body (CriticalAnchors.v);
      BoxHalves             right and left of a z particle both move, so no motion is in the box.
 
    Without the witness there may be leaves BoxWhole and BoxHalves only.
@@ -40,6 +42,7 @@ Inductive critical_leaf :=
   | BoxDefinite of seq Z & factor * factor & factor * factor
   | BoxRegular of regular
   | BoxWhole of whole & whole
+  | BoxSigned of Z & (Z * factor) * (Z * factor) & (Z * factor) * (Z * factor)
   | BoxHalves.
 
 (* Evidence about enclosures of both parts. *)
@@ -48,7 +51,7 @@ Definition check_parts (P P' : enclosed) (r : region) (low high : point) (l : cr
   | BoxFarkas v => box_farkas (mixed low P P') (mixed high P P') r v
   | BoxDefinite d f f' => box_definite (mixed low P P') (mixed high P P') r d f f'
   | BoxRegular v => box_regular (mixed low P P') (mixed high P P') r v
-  | BoxWhole _ _ | BoxHalves => false
+  | BoxWhole _ _ | BoxSigned _ _ _ | BoxHalves => false
   end.
 
 (* The system in which the z particles are free. *)
@@ -164,7 +167,7 @@ have sol : box_solution (mixed low P P') (mixed high P P') (Ae low) (Be low) (Ae
     rewrite -[X in X + mu * _]mul1r -one -val.
     by move: (row i) (row' i) (factor i) => *; ring.
   by split; [exact: x0 | rewrite mulr_ge0 // ltW | rewrite mulrCA xy mulr0].
-case: l => [v|d k k'|v|//|//] /= ok.
+case: l => [v|d k k'|v|//|//|//] /= ok.
 - exact: (box_farkas_sound O bt El Eh _ ag f0 g0 fg sol ok).
 - exact: (box_definite_sound El Eh _ O bt ag f0 g0 fg sol ok).
 exact: (box_regular_sound El Eh _ O bt ag f0 g0 fg sol ok).
@@ -422,7 +425,7 @@ Qed.
 
 Lemma whole_leaf_absent l : check_whole_leaf z r low high l -> False.
 Proof.
-case: l => [v'|d f f'|v'|a b|] //=; first exact: whole_absent.
+case: l => [v'|d f f'|v'|a b|c f f'|] //=; first exact: whole_absent.
 move=> both; have ag' : agrees (size (slip Q0)) r (slip_of Q0 x) by rewrite size_slips.
 exact: both_not_split ag' both motion_split.
 Qed.

@@ -6,8 +6,8 @@
      AboutAnchor n g tr  evidence of Critical.v for both parts, condensed about anchor n with the
                          grain g over the interval of the box; in the tree tr the position u in
                          this interval stands in place of t;
-     WithoutAnchor l     a leaf of Critical.v that needs no enclosures; of a problem with radii and
-                         without free variables one about the rows as they are ([exact_part]).
+     WithoutAnchor l     a leaf of Critical.v that needs no enclosures; of a problem with radii one
+                         about the rows as they are ([check_exact]).
 
    Over the box both local pencils are near lines, and their rows have one positive factor, so the
    local pencil at mu is a combination of those at both ends of the interval of mu.
@@ -19,8 +19,8 @@
    Page: spec/certificates.md, 5.18, with 5.14.
    Rust: crates/check/src/cover/critical.rs, condensed.rs, expanded.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Pinned Cover
-  Condensation Pencil Whole Complete System Norms Elimination Series Anchor AnchorLeaf Varying
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Signed Pinned
+  Cover Condensation Pencil Whole Complete System Norms Elimination Series Anchor AnchorLeaf Varying
   ZeroReaction ZeroPencil Boxes Regular Critical.
 
 Record box_anchor := BoxAnchor {
@@ -58,12 +58,18 @@ Definition widened (radii : option part_radii) (P : enclosed) : enclosed :=
       (wider (center_b P) (radius_b P))
   else P.
 
-(* Without free variables: the entries of a part with their radii. *)
-Definition exact_part (Q : pencil) (radii : seq sparse_row * seq sparse_row) : enclosed :=
+(* The entries of a part with their radii, for all variables, the first rows times a factor. *)
+Definition exact_part first factor (Q : pencil) (radii : seq sparse_row * seq sparse_row) :=
   let ix := iota 0 (order Q) in
+  let times (i : nat) (v : Z) : Z := if (i < first)%N then (factor * v)%Z else v in
   let table (rows : seq sparse_row) : matrix :=
-    [seq [seq lookup (nth [::] rows i) j | j <- ix] | i <- ix] in
+    [seq [seq times i (lookup (nth [::] rows i) j) | j <- ix] | i <- ix] in
   Enclosed (order Q) (table (rows_a Q)) (table (rows_b Q)) (table radii.1) (table radii.2).
+
+(* Free rows have no share. *)
+Definition radii_of_all nf (radii : part_radii) : part_radii :=
+  PartRadii (plain_radii radii) (friction_radii radii) (nseq nf 0%Z ++ friction_shares radii)
+    (share_unit radii).
 
 Definition swapped_radii (radii : option (seq sparse_row * seq sparse_row)) :=
   omap (fun rad => (rad.2, rad.1)) radii.
@@ -110,6 +116,16 @@ Definition check_about low_a low_b (b : box_anchor) (fams : anchor_family * anch
           (widened radii (local_part low_a low_b a' fams.2 (lower r) (upper r) grain)))
         tr (local_region r) low high].
 
+(* A leaf about the entries of both parts: the form of all variables, or without free ones any.  The
+   free rows are the same in both parts, so the first part has them alone. *)
+Definition check_exact (rad : part_radii) (r : region) (low high : point) (l : critical_leaf) :=
+  let nf := size (free Q0) in
+  let P' := widened (Some (radii_of_all nf rad)) (exact_part nf 0 Q1 (friction_radii rad)) in
+  if l is BoxSigned factor f f' then
+    let P := exact_part nf factor Q0 (plain_radii rad) in
+    (0 <=? factor)%Z && box_signed (mixed low P P') (mixed high P P') r f f'
+  else nilp (free Q0) && check_parts (exact_part 0 0 Q0 (plain_radii rad)) P' r low high l.
+
 Variable w : box_anchoring.
 
 Definition no_box_anchor := BoxAnchor false (Anchor zero 0 [::] [::] [::]) [::].
@@ -128,11 +144,7 @@ Definition check_anchored_box (families : seq (option (anchor_family * anchor_fa
         else check_about (stiffness_below w) (mass_below w) b fams grain r low high tr'
       else false
   | WithoutAnchor l =>
-      if radii is Some rad then
-        nilp (free Q0) &&
-        check_parts (exact_part Q0 (plain_radii rad))
-          (widened radii (exact_part Q1 (friction_radii rad))) r low high l
-      else check_whole_leaf z r low high l
+      if radii is Some rad then check_exact rad r low high l else check_whole_leaf z r low high l
   end.
 
 Definition both_bounded :=
@@ -183,15 +195,24 @@ have entryE (f : nat -> nat -> Z) :
 by split; rewrite entryE; apply: wider.
 Qed.
 
-Lemma exact_encloses (R : rcfType) Q (A B : nat -> nat -> R) radii :
-  within_radii Q A B radii -> encloses (exact_part Q radii) A B.
+Definition rows_times (R : rcfType) first (factor : Z) (A : nat -> nat -> R) i j :=
+  if (i < first)%N then toR factor * A i j else A i j.
+
+Lemma exact_encloses (R : rcfType) first factor Q (A B : nat -> nat -> R) radii :
+  (0 <=? factor)%Z -> within_radii Q A B radii ->
+  encloses (exact_part first factor Q radii) (rows_times first factor A)
+    (rows_times first factor B).
 Proof.
-move=> near i j Hi Hj; have := near i j Hi Hj.
-have tableE rows : entry [seq [seq lookup (nth [::] rows i) j | j <- iota 0 (order Q)]
-    | i <- iota 0 (order Q)] i j = lookup (nth [::] rows i) j.
+rewrite -(toR_ge0 R) => c0 near i j Hi Hj; have [na nb] := near i j Hi Hj.
+have tableE rows :
+    entry [seq [seq (if (i < first)%N then factor * lookup (nth [::] rows i) j
+                     else lookup (nth [::] rows i) j)%Z
+               | j <- iota 0 (order Q)] | i <- iota 0 (order Q)] i j =
+    (if (i < first)%N then factor * lookup (nth [::] rows i) j else lookup (nth [::] rows i) j)%Z.
   move: Hi Hj; rewrite !mem_iota !add0n => lt_i lt_j.
   by rewrite /entry (nth_map 0%N) ?size_iota // (nth_map 0%N) ?size_iota // !nth_iota.
-by rewrite /exact_part /= !tableE.
+rewrite /exact_part /= !tableE /rows_times; case: ifP => // _.
+by rewrite !toRM -!mulrBr !normrM (ger0_norm c0) !ler_wpmul2l.
 Qed.
 
 Lemma size_widened radii P : size_of (widened radii P) = size_of P.
@@ -442,27 +463,30 @@ exact: (about_reversed_absent ready ready' grain0 same_size shares bm (between_g
 Qed.
 
 (* Without free variables: the entries of the parts with their radii. *)
-Lemma exact_box_absent rad l : radii = Some rad ->
-  check_anchored_box z radii w (box_expansions z radii w) r low high (WithoutAnchor l) -> False.
+Lemma exact_parts_absent rad l : radii = Some rad -> free Q0 = [::] ->
+  check_parts (exact_part 0 0 Q0 (plain_radii rad))
+    (widened radii (exact_part 0 0 Q1 (friction_radii rad))) r low high l -> False.
 Proof.
-move=> some /=; rewrite {1}some => /andP[/nilP no_free ok].
+move=> some no_free ok.
 move: (in_plain) (in_friction) (shares); rewrite {1 2 3}some /= => -[near _ _] [near' _ _] near_g.
-have all_slip : slip Q0 = indices (exact_part Q0 (plain_radii rad)).
+have all_slip : slip Q0 = indices (exact_part 0 0 Q0 (plain_radii rad)).
   rewrite /slip (_ : free Q0 = [::]) // (eq_filter (a2 := predT)) ?filter_predT //.
 have n_slip : size (slip Q0) = order Q0 by rewrite all_slip size_iota.
 have slip_at k : (k < order Q0)%N -> nth 0%N (slip Q0) k = k.
   by move=> lt_k; rewrite all_slip nth_iota.
-have {}near_g : within_shares radii (size_of (exact_part Q1 (friction_radii rad))) g.
+have {}near_g : within_shares radii (size_of (exact_part 0 0 Q1 (friction_radii rad))) g.
   by move: near_g; rewrite some n_slip.
-apply: (parts_absent (r := r) (t := t) (mu := mu) (exact_encloses near)
-  (widened_encloses near_g (exact_encloses near')) (size_widened radii _) O Om bt bm
+have E := exact_encloses (first := 0) (factor := 0%Z) isT near.
+have E' := exact_encloses (first := 0) (factor := 0%Z) isT near'.
+apply: (parts_absent (r := r) (t := t) (mu := mu) E (widened_encloses near_g E')
+  (size_widened radii _) O Om bt bm
   (xs := x) (factor := fun=> 1) (row := y) (row' := fun i => g i * y' i) _ _ _ _ _ _ ok) => //.
 - move: ag; rewrite n_slip => ag' k lt_k; have := ag' k lt_k.
   by rewrite /slip_of slip_at.
 - by move=> i _; apply: ltr01.
 - by move=> i _; rewrite mul1r.
 - move=> i _; rewrite mul1r /image (same_indices (size_widened radii _)) /member_reaction mulr_sumr.
-  apply: eq_bigr => j _; rewrite /Enclosed.T.
+  apply: eq_bigr => j _; rewrite /Enclosed.T /rows_times /=.
   by move: (A' i j) (B' i j) (g i) (x j) => *; ring.
 move=> k; rewrite mem_iota add0n /= => lt_k; have := signs (k := k).
 by rewrite n_slip slip_at //; apply.

@@ -10,7 +10,7 @@
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt.
 From mathcomp Require Import all_ssreflect.
-From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Root RootLeaf Pinned Cover.
+From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Signed Root RootLeaf Pinned Cover.
 From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Covers Boxes Regular.
@@ -72,5 +72,5 @@ Extraction "kernel.ml"
   check_presence_piece presence_inside presence_edge zero_pencil point_pencil reverse_pencil is_held
   is_apart applied_row equations
   inequalities scaled_row signed_part check_given_rates check_given_stable mu_pencil k_rows kappa_in
-  width_bound check_members_absent radii_of_parts scaled_radii widened exact_part check_radii_absent
-  told_apart.
+  width_bound check_members_absent radii_of_parts scaled_radii widened exact_part radii_of_all
+  signed_end_times check_radii_absent told_apart.

@@ -14,8 +14,9 @@
 
    Page: spec/certificates.md, 5.22.  Rust: crates/check/src/cover/spread.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Bounded Cover Condensation Pencil Complete System
-  Series Anchor AnchorLeaf ZeroReaction ZeroPencil Boxes Critical CriticalAnchors PresenceAnchors.
+From Mceip Require Import Base Integers Sums Tree Enclosed Bounded Signed Cover Condensation Pencil
+  Complete System Series Anchor AnchorLeaf ZeroReaction ZeroPencil Boxes Critical CriticalAnchors
+  PresenceAnchors.
 
 Record system_radii := SystemRadii {
   stiffness_radii : seq sparse_row;
@@ -360,6 +361,95 @@ Qed.
 
 End At.
 
+(* A leaf about the entries of both parts. *)
+Section Exact.
+
+Notation A := (part_entry 0 1 k).
+Notation B := (part_entry 0 1 m).
+Notation A' := (part_entry 1 0 k).
+Notation B' := (part_entry 1 0 m).
+Notation rd := (radii_of_parts s rad).
+Variables (t mu : R) (x : nat -> R).
+Notation y := (member_reaction n A B t x).
+Notation y' := (member_reaction n A' B' t x).
+Hypothesis nonzero : exists2 i, i \in iota 0 n & x i != 0.
+Hypothesis rows : forall i, i \in free Q0 -> y i = 0.
+Hypothesis signs : forall j, (j < size (slip Q0))%N -> let i := nth 0%N (slip Q0) j in
+  let row := y i + mu * (g j * y' i) in [/\ 0 <= x i, 0 <= row & x i * row = 0].
+Variables (r : region) (low high : point).
+Hypotheses (O : ordered (lower r) (upper r)) (Om : ordered low high).
+Hypotheses (bt : between t (lower r) (upper r)) (bm : between mu low high).
+Hypothesis ag : agrees (size (slip Q0)) r (slip_of Q0 x).
+
+Definition factor_of_row i : R := if (i < nf)%N then 1 else g (i - nf).
+
+Lemma free_size : size (free Q0) = nf.
+Proof. by rewrite size_iota. Qed.
+
+Lemma shares_of_all : within_shares (Some (radii_of_all (size (free Q0)) rd)) n factor_of_row.
+Proof.
+have [u0 near] := member_shares; split=> // i; rewrite order_parts free_size /factor_of_row => lt_i.
+rewrite nth_cat size_nseq; case: ltnP => [lt_f|ge_f].
+  by rewrite subrr normr0 mul0r nth_nseq lt_f toR0.
+by apply: near; rewrite slip_size ltn_subLR.
+Qed.
+
+Lemma row_product c i : (i < n)%N ->
+  x i * ((if (i < nf)%N then toR c * y i else y i) +
+         mu * (factor_of_row i * if (i < nf)%N then 0 else y' i)) = 0.
+Proof.
+rewrite /factor_of_row => lt_n; have lt_i : (i < nf + ns)%N by rewrite -order_parts.
+case: ltnP => [lt_f|ge_f].
+  have in_free : i \in free Q0 by rewrite mem_iota.
+  by rewrite rows // !mulr0 addr0 mulr0.
+have lt_j : (i - nf < ns)%N by rewrite ltn_subLR.
+have := signs (j := (i - nf)%N); rewrite slip_size slip_at_number // subnKC // => /(_ lt_j).
+by case.
+Qed.
+
+Lemma signed_absent c f f' (nf' := size (free Q0)) (P := exact_part nf' c Q0 (plain_radii rd))
+    (P' := widened (Some (radii_of_all nf' rd)) (exact_part nf' 0 Q1 (friction_radii rd))) :
+  (0 <=? c)%Z -> box_signed (mixed low P P') (mixed high P P') r f f' -> False.
+Proof.
+move=> c0; have [near _ _] := member_plain; have [near' _ _] := member_friction.
+have E := exact_encloses (first := nf') c0 near.
+have E' := widened_encloses (P := exact_part _ _ Q1 _) shares_of_all
+  (exact_encloses (first := nf') (factor := 0%Z) isT near').
+have same : size_of P' = size_of P by [].
+have [a [b [a0 b0 [one val] [ab _]]]] := weights_of_ends Om bm.
+have [l1 l2 h1 h2] := ordered_ge0 R Om.
+have El := mixed_encloses E E' same l1 l2; have Eh := mixed_encloses E E' same h1 h2.
+move=> ok; apply: (box_signed_sound El Eh (erefl _) O bt a0 b0 ab nonzero ok).
+apply: sum_zero => i; rewrite mem_iota add0n => /= lt_i.
+rewrite /box_image !image_mixed // -[RHS](row_product c lt_i); congr (x i * _).
+set row := if (i < nf)%N then toR c * y i else y i; set row' := if (i < nf)%N then 0 else y' i.
+have -> : image P (rows_times nf' c A) (rows_times nf' c B) t x i = row.
+  rewrite /image /T /rows_times /row /nf' free_size; case: ifP => _ //.
+  rewrite /member_reaction mulr_sumr; apply: eq_bigr => j _.
+  by move: (A i j) (B i j) (toR c) (x j) => *; ring.
+have -> : image P' (fun i j => factor_of_row i * rows_times nf' 0 A' i j)
+    (fun i j => factor_of_row i * rows_times nf' 0 B' i j) t x i = factor_of_row i * row'.
+  rewrite /image /T /rows_times /row' /nf' free_size toR0; case: ifP => _.
+    by rewrite mulr0 sum_zero // => j _; rewrite !mul0r !mulr0 addr0 mul0r.
+  rewrite /member_reaction mulr_sumr; apply: eq_bigr => j _.
+  by move: (A' i j) (B' i j) (factor_of_row i) (x j) => *; ring.
+rewrite -[X in X + mu * _]mul1r -one -val.
+by move: row (factor_of_row i * row') => *; ring.
+Qed.
+
+Lemma exact_absent l : check_exact z (radii_of_parts s rad) r low high l -> False.
+Proof.
+rewrite /check_exact; case is_signed: l => [v|d f f'|v|a b|c f f'|]; last 2 first.
+- by case/andP; apply: signed_absent.
+- by case/andP.
+all: rewrite -is_signed => /andP[/nilP no_free]; rewrite no_free.
+all: have -> : radii_of_all (size [::]) rd = rd by case: rd.
+all: exact: (exact_parts_absent member_plain member_friction member_shares nonzero signs O Om bt bm
+  ag (erefl _) no_free).
+Qed.
+
+End Exact.
+
 Theorem members_absent w tr from bound : check_members_absent s rad w tr from bound ->
   forall t mu v, 0 <= t -> between mu from bound -> member_conditions t mu v -> False.
 Proof.
@@ -400,8 +490,7 @@ have ag' : agrees (size (slip Q0)) r (slip_of Q0 x).
 case: l ok => [a grain e|l] ok.
   apply: (member_box_absent bounds member_plain member_friction member_shares x_nonzero
     (free_rows 0%Z 1%Z) (free_rows 1%Z 0%Z) signs _ O bt bm' ag' ok) => //.
-exact: (exact_box_absent member_plain member_friction member_shares x_nonzero signs O Om bt bm' ag'
-  (erefl _) ok).
+exact: (exact_absent x_nonzero (free_rows 0%Z 1%Z) signs O Om bt bm' ag' ok).
 Qed.
 
 Theorem members_present w pieces from bound : check_members_present s rad w pieces from bound ->

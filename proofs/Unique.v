@@ -7,14 +7,8 @@
 
    For two such motions the difference d has (S t'd) (S t'Kd + mu n'Kd) <= 0 at each slip particle:
    in the variables of the pencil x_i (T(mu) x)_i <= 0 for every complementarity variable, with
-   T(mu) x = 0 in the free rows.  Let S_e be the integer matrix
-
-       S_e,ij = center_e,ij + center_e,ji,     i != j,
-       S_e,ii = 2 center_e,ii - sum_j (radius_e,ij + radius_e,ji)
-
-   of the condensed pencil at an end e of an interval.  x'S_e x <= 2 x'T_e x for every vector x, of
-   any signs.  So if S_e is strictly covered (Covered.v) at both ends, T(mu) is a P-matrix for every
-   mu between them, and d = 0.
+   T(mu) x = 0 in the free rows.  So if the condensed pencil is definite at both ends of an interval
+   (Signed.v), T(mu) is a P-matrix for every mu between them, and d = 0.
 
    Theorem [rates_sound]: if the check succeeds, there is at most one such motion for each f and
    each mu of the interval.
@@ -22,22 +16,12 @@
    Page: spec/certificates.md, 5.9 ("What more it says").  Rust: crates/check/src/lib.rs,
    [has_unique_rates]. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Condensation Pencil
-  System ZeroReaction ZeroPencil Rational Statement Integral.
+From Mceip Require Import Base Integers Sums Tree Enclosed Covered Definite Signed Condensation
+  Pencil System ZeroReaction ZeroPencil Rational Statement Integral.
 
 Section Checker.
 
 Local Open Scope Z_scope.
-
-Definition signed_part (P : enclosed) e (i j : nat) :=
-  if i == j
-  then 2 * center P e i i - sumZ (indices P) (fun k => radius P e i k + radius P e k i)
-  else center P e i j + center P e j i.
-
-Definition signed_end P strict e f :=
-  [&& all (fun w => 0 <=? w) (weights f), size (factor_rows f) == size_of P &
-      covered (signed_part P e) (weighted_dot (weights f)) strict
-        (zip (indices P) (factor_rows f))].
 
 Definition check_rates (s : system) lo hi w low high :=
   let Q := pencil_of s Mu in
@@ -52,102 +36,6 @@ Definition check_given_rates c B lo hi w low high :=
   [&& exact_system c B, nilp (with_zero B) & check_rates (scaled_system c B) lo hi w low high].
 
 End Checker.
-
-Lemma signed_part_sym P e i j : signed_part P e i j = signed_part P e j i.
-Proof. by rewrite /signed_part eq_sym; case: eqP => [->|_] //; rewrite Z.add_comm. Qed.
-
-(* 2 a (t - c) b + r (a^2 + b^2) = ((t - c + r) (a + b)^2 + (c + r - t) (a - b)^2) / 2 *)
-Lemma near_product (R : realFieldType) (t c r a b : R) : c - r <= t -> t <= c + r ->
-  2%:R * (a * c * b) - r * (a ^+ 2 + b ^+ 2) <= 2%:R * (a * t * b).
-Proof.
-move=> lo hi; rewrite -subr_ge0 -(@pmulr_rge0 _ 2%:R) ?ltr0n //.
-have -> : 2%:R * (2%:R * (a * t * b) - (2%:R * (a * c * b) - r * (a ^+ 2 + b ^+ 2))) =
-    (t - (c - r)) * (a + b) ^+ 2 + (c + r - t) * (a - b) ^+ 2 by ring.
-by apply: addr_ge0; apply: mulr_ge0; rewrite ?subr_ge0 ?sqr_ge0.
-Qed.
-
-Section Form.
-
-Variable R : realFieldType.
-Variables (P : enclosed) (A B : nat -> nat -> R).
-Hypothesis E : encloses P A B.
-Variable x : nat -> R.
-
-Notation ix := (indices P).
-Notation center_of e i j := (toR (center P e i j) : R).
-Notation radius_of e i j := (toR (radius P e i j) : R).
-
-(* x'S_e x <= 2 x'T_e x *)
-Lemma signed_part_le e : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
-  \sum_(i <- ix) \sum_(j <- ix) x i * toR (signed_part P e i j) * x j <=
-  2%:R * quadratic P A B [::] x e.
-Proof.
-move=> p q.
-pose near i j := 2%:R * (x i * center_of e i j * x j) - radius_of e i j * (x i ^+ 2 + x j ^+ 2).
-have below : \sum_(i <- ix) \sum_(j <- ix) near i j <= 2%:R * quadratic P A B [::] x e.
-  rewrite /quadratic mulr_sumr; apply: sum_le => i Hi; rewrite mulr_sumr; apply: sum_le => j Hj.
-  have := T_end_enclosed E Hi Hj p q; rewrite ler_distl => /andP[lo hi].
-  by rewrite /weight_of nth_nil toR1 mul1r; apply: near_product.
-apply: le_trans below; rewrite le_eqVlt; apply/orP; left; apply/eqP.
-pose twice i j := x i * (center_of e i j + center_of e j i) * x j.
-have radii : \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * (x i ^+ 2 + x j ^+ 2) =
-    \sum_(i <- ix) x i ^+ 2 * \sum_(j <- ix) (radius_of e i j + radius_of e j i).
-  have -> : \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * (x i ^+ 2 + x j ^+ 2) =
-      \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * x i ^+ 2 +
-      \sum_(i <- ix) \sum_(j <- ix) radius_of e i j * x j ^+ 2.
-    rewrite -big_split; apply: eq_bigr => i _; rewrite -big_split; apply: eq_bigr => j _.
-    exact: mulrDr.
-  rewrite [X in _ + X = _]exchange_big -big_split; apply: eq_bigr => i _ /=.
-  rewrite -big_split mulr_sumr; apply: eq_bigr => j _ /=.
-  by rewrite mulrDr ![x i ^+ 2 * _]mulrC.
-have centers : \sum_(i <- ix) \sum_(j <- ix) 2%:R * (x i * center_of e i j * x j) =
-    \sum_(i <- ix) \sum_(j <- ix) twice i j.
-  have split_twice : \sum_(i <- ix) \sum_(j <- ix) twice i j =
-      \sum_(i <- ix) \sum_(j <- ix) x i * center_of e i j * x j +
-      \sum_(i <- ix) \sum_(j <- ix) x i * center_of e j i * x j.
-    rewrite -big_split; apply: eq_bigr => i _; rewrite -big_split; apply: eq_bigr => j _ /=.
-    by rewrite /twice mulrDr mulrDl.
-  rewrite split_twice [X in _ = _ + X]exchange_big -big_split; apply: eq_bigr => i _ /=.
-  rewrite -big_split; apply: eq_bigr => j _ /=.
-  by move: (x i) (x j) (center_of _ _ _) => *; ring.
-rewrite /near; under [RHS]eq_bigr do rewrite sumrB.
-rewrite sumrB centers radii -sumrB; apply: sum_eq => i Hi.
-rewrite (bigD1_seq i) ?iota_uniq //= [X in _ = X - _](bigD1_seq i) ?iota_uniq //=.
-rewrite addrAC; congr (_ + _); last first.
-  by apply: eq_bigr => j /negbTE ne; rewrite /signed_part eq_sym ne toRD.
-rewrite /signed_part eqxx toRB toRM toR_sum; under eq_bigr do rewrite toRD.
-rewrite /twice [toR 2%Z](_ : _ = 2%:R) //.
-by move: (\sum_(j <- ix) _) (x i) (center_of _ _ _) => *; ring.
-Qed.
-
-Lemma signed_end_sound strict e f : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
-  signed_end P strict e f -> 0 <= quadratic P A B [::] x e /\
-  (strict -> (exists2 i, i \in ix & x i != 0) -> 0 < quadratic P A B [::] x e).
-Proof.
-move=> p q /and3P[w0 /eqP sz C].
-have size_rows : size (factor_rows f) == size ix by rewrite size_iota sz.
-have [|i j _ _|form0 form1] := covered_list (dT := 0%N) (dU := [::]) (l := ix) (item := id) x
-  (erefl _) size_rows _ (weighted_gram R _ _ w0) _ C => //; first exact: signed_part_sym.
-have le := signed_part_le p q.
-split; first by rewrite -(@pmulr_rge0 _ 2%:R) ?ltr0n // (le_trans form0).
-by move=> st nonzero; rewrite -(@pmulr_rgt0 _ 2%:R) ?ltr0n // (lt_le_trans _ le) // form1.
-Qed.
-
-(* Between definite ends the pencil has the property of a P-matrix. *)
-Lemma reversed_zero t lo hi low high : ordered lo hi -> between t lo hi ->
-  signed_end P true lo low -> signed_end P (0 <? hi.2)%Z hi high ->
-  (forall i, i \in ix -> x i * image P A B t x i <= 0) -> forall i, i \in ix -> x i = 0.
-Proof.
-move=> O W L H reversed i Hi; have [//|xi] := eqVneq (x i) 0.
-have nonzero : exists2 i, i \in ix & x i != 0 by exists i.
-have [p q p' q'] := ordered_ge0 R O.
-have [_ low1] := signed_end_sound p q L; have [high0 high1] := signed_end_sound p' q' H.
-have := form_between O W (low1 isT nonzero) high0 (fun st => high1 st nonzero).
-rewrite ltNge -oppr_ge0 -sumrN big_seq sumr_ge0 // => j Hj.
-by rewrite /weight_of nth_nil toR1 mul1r oppr_ge0 reversed.
-Qed.
-
-End Form.
 
 Section Pencil.
 

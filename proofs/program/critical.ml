@@ -315,26 +315,6 @@ let new_anchor c (plain : Kernel.pencil) (friction : Kernel.pencil) slip center 
         friction_left = left friction })
     (inverse (at_center (dense plain.rows_a free free) slope))
 
-(* Ends of intervals that cover a tail, from where it begins; the last one has no end. *)
-let ends_of_tail from = List.init 9 (fun k -> Q.mul from (Q.of_bigint (two_to k)))
-
-(* The anchors of the certificate; behind them those for the intervals of a tail. *)
-let with_tail c v plain friction slip =
-  match c.tail with
-  | Some tail when Q.sign tail.from > 0 ->
-    let ends = ends_of_tail tail.from in
-    let last = List.length ends - 1 in
-    let center k lower =
-      if k = last then None else Some (Q.mul lower (Q.make (Z.of_int 4) (Z.of_int 3))) in
-    let extra = List.mapi (fun k lower -> new_anchor c plain friction slip (center k lower)) ends in
-    if List.mem None extra then v
-    else
-      let anchors = v.anchoring.Kernel.box_anchors @ List.filter_map Fun.id extra in
-      let anchoring = { v.anchoring with Kernel.box_anchors = anchors } in
-      { v with anchoring;
-               families = Array.of_list (Kernel.box_expansions c.zero c.radii anchoring) }
-  | _ -> v
-
 (* Without free variables there is nothing to bound. *)
 let nothing_bounded box_anchors =
   let bound = { trivial_bound with Kernel.bound_at = Z.one } in
@@ -453,23 +433,27 @@ let no_leaf node =
   | CutValue _ | CutFriction _ | Decide _ -> assert false
   | BoxFarkas _ | BoxDefinite _ | BoxRegular _ | BoxTail -> ()
 
-(* The tail of a body with radii: positive definite over each of its intervals. *)
-let member_tail c v box =
-  let from = value_of box.region.lower in
-  let ends = ends_of_tail from in
-  let first = Array.length v.families - List.length ends in
-  let rec intervals k box = function
-    | _ :: (next :: _ as rest) ->
-      let cut = point_of next in
-      let lower = { box with region = { box.region with upper = cut } } in
-      let upper = { box with region = { box.region with lower = cut } } in
-      Kernel.Split (cut, closed k lower, intervals (k + 1) upper rest)
-    | _ -> closed k box
-  and closed k box =
-    let definite box parts region = definite_box parts Identity region box in
-    close "tail" [Along_value; Along_value; Along_value] [fun box ->
-        about c v (first + k) box (definite box)] box in
-  if finite box.region.upper || first < 0 then no_witness "tail" else intervals 0 box ends
+(* The rows of members as they are, with their radii, the free ones in the first part alone. *)
+let exact_parts c (radii : Kernel.part_radii) free_factor =
+  let plain = Kernel.part_plain c.zero and friction = Kernel.part_friction c.zero in
+  let free = List.length plain.free in
+  Kernel.exact_part free free_factor plain radii.plain_radii,
+  Kernel.widened (Some (Kernel.radii_of_all free radii))
+    (Kernel.exact_part free Z.zero friction radii.friction_radii)
+
+(* The tail of a body with radii: its form is positive for all variables.  The factor makes the free
+   rows those of the form. *)
+let member_tail c radii box =
+  let free_factor = Z.divexact c.slip_factor c.free_factor in
+  let plain, friction = exact_parts c radii free_factor in
+  spend (List.length plain.center_a);
+  let ends e = signed_ends (Kernel.mixed e plain friction) box.region in
+  match ends box.low with
+  | None -> no_witness "tail"
+  | Some f ->
+    match ends box.high with
+    | None -> no_witness "tail"
+    | Some f' -> Kernel.Leaf (Kernel.WithoutAnchor (Kernel.BoxSigned (free_factor, f, f')))
 
 let anchored_leaf c v piece box node =
   no_leaf node;
@@ -495,8 +479,10 @@ let anchored_leaf c v piece box node =
     let k = position c.slip pivot in
     close "regular" in_turn [fun box -> about c v (number ()) box (fun parts region ->
         regular_box parts k region box)] box
-  | _ when c.radii <> None -> member_tail c v box
-  | _ -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole Identity] box
+  | _ ->
+    match c.radii with
+    | Some radii -> member_tail c radii box
+    | None -> close "tail" [] [(fun box -> as_whole (by_tail c box)); whole Identity] box
 
 (* ---------- without free variables *)
 
@@ -519,11 +505,6 @@ let leaf_of_parts c parts _ box node =
         Option.bind parts (fun parts -> regular_box parts k box.region box)] box
   | BoxTail -> found "tail" [by_tail c; by_whole c Identity]
   | _ -> no_witness "a condensation is missing"
-
-(* The rows of members as they are, with their radii. *)
-let exact_parts (radii : Kernel.part_radii) plain friction =
-  Kernel.exact_part plain radii.plain_radii,
-  Kernel.widened (Some radii) (Kernel.exact_part friction radii.friction_radii)
 
 (* For members: the weights of the file are those of scaled rows. *)
 let member_leaf_without_free c parts scales _ box node =

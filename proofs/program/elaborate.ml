@@ -127,44 +127,49 @@ let exact_ldl s =
   done;
   if !ok then Some (l, d) else None
 
+(* Ways to a factor of a form of n rows: the scale of the form, weights (none: 1) and rows.
+   [form c] is c times the form. *)
+let ways_with_scale strict n form =
+  let rounded () =
+    let c = two_to 112 in
+    Option.map (fun rows -> (c, None, rows)) (factor_rows strict (form c)) in
+  (* 2^k S - I for a strict end, S for a weak one. *)
+  let exact k () =
+    let s = Array.mapi (fun i row -> Array.mapi (fun j v ->
+        let v = Z.shift_left v k in
+        Q.of_bigint (if strict && i = j then Z.pred v else v)) row) (form Z.one) in
+    Option.map (fun (l, d) ->
+        let common = Array.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one in
+        let cl = Array.fold_left (fun c row -> Z.lcm c (common row)) Z.one l and cd = common d in
+        let times c v = Q.num (Q.mul v (Q.of_bigint c)) in
+        let weights = Array.to_list (Array.map (times cd) d) in
+        let scale = Z.mul (two_to k) (Z.mul cd (Z.mul cl cl)) in
+        (scale, Some weights, Array.map (Array.map (times cl)) l))
+      (exact_ldl s) in
+  let shifts = if strict then [0; 8; 24; 60; 120; 300; 1000] else [0] in
+  rounded :: (if n > 128 then [] else List.map exact shifts)
+
+(* The first of the ways that the kernel accepts. *)
+let first_accepted make accepted ways =
+  let attempt way = match way () with
+    | None -> None
+    | Some found -> let w = make found in if accepted w then Some w else None in
+  List.find_map attempt ways
+
+let integer_rows rows = Array.to_list (Array.map Array.to_list rows)
+
 let whole_end pencil weights strict e region =
   let members = Array.of_list (Kernel.members pencil weights region) in
   let n = Array.length members in
   let form c = Array.init n (fun i -> Array.init n (fun j ->
       Kernel.member_form c e members.(i) members.(j))) in
-  let accepted w = Kernel.check_end pencil weights strict e region w in
-  let rounded () =
-    let c = two_to 112 in
-    match factor_rows strict (form c) with
-    | None -> None
-    | Some rows ->
-      let w = { Kernel.end_scale = c;
-                end_factor = Kernel.Late (Z.one, Array.to_list (Array.map late_row rows)) } in
-      if accepted w then Some w else None in
-  (* 2^k S - I for a strict end, S for a weak one. *)
-  let exact k =
-    let s = form Z.one in
-    let s = Array.mapi (fun i row -> Array.mapi (fun j v ->
-        let v = Z.shift_left v k in
-        Q.of_bigint (if strict && i = j then Z.pred v else v)) row) s in
-    match exact_ldl s with
-    | None -> None
-    | Some (l, d) ->
-      let common = Array.fold_left (fun c v -> Z.lcm c (Q.den v)) Z.one in
-      let cl = Array.fold_left (fun c row -> Z.lcm c (common row)) Z.one l and cd = common d in
-      let times c v = Q.num (Q.mul v (Q.of_bigint c)) in
-      let weights = Array.to_list (Array.map (times cd) d) in
-      let rows = Array.to_list (Array.map (fun row ->
-          Array.to_list (Array.map (times cl) row)) l) in
-      let w = { Kernel.end_scale = Z.mul (two_to k) (Z.mul cd (Z.mul cl cl));
-                end_factor = Kernel.Dense (weights, rows) } in
-      if accepted w then Some w else None in
-  let rec first = function
-    | [] -> None
-    | f :: rest -> (match f () with Some w -> Some w | None -> first rest) in
-  let exact_ways = if n > 128 then [] else
-      List.map (fun k () -> exact k) (if strict then [0; 8; 24; 60; 120; 300; 1000] else [0]) in
-  first (rounded :: exact_ways)
+  let make (end_scale, weights, rows) =
+    let end_factor = match weights with
+      | None -> Kernel.Late (Z.one, Array.to_list (Array.map late_row rows))
+      | Some weights -> Kernel.Dense (weights, integer_rows rows) in
+    { Kernel.end_scale; end_factor } in
+  first_accepted make (Kernel.check_end pencil weights strict e region)
+    (ways_with_scale strict n form)
 
 (* Weights that undo the factors by which the rows were made integers. *)
 let row_weights (pencil : Kernel.pencil) common slip_common =
@@ -218,8 +223,7 @@ let diagonal_weights n k = function
 (* Ways to a factor of a form, as weights and rows: one in doubles. *)
 let ways_in_doubles strict s =
   let with_ones rows = (List.map (fun _ -> Z.one) rows, rows) in
-  [fun () -> Option.map (fun rows -> with_ones (Array.to_list (Array.map Array.to_list rows)))
-      (factor_rows strict s)]
+  [fun () -> Option.map (fun rows -> with_ones (integer_rows rows)) (factor_rows strict s)]
 
 (* L D L' of the form less 2^-margin of its largest entry, rounded.  L and D need some 4 margin bits
    in all, so the weights are multiplied by 2^exact_bits. *)
@@ -237,9 +241,9 @@ let ways_in_fractions s =
     let digits = margin + 64 in
     let rounded shift v = Z.fdiv (Z.shift_left (Q.num v) shift) (Q.den v) in
     let weight v = Z.shift_right (rounded 0 v) (2 * digits) in
-    let integers row = Array.to_list (Array.map (rounded digits) row) in
     Option.map (fun (l, d) ->
-        (Array.to_list (Array.map weight d), Array.to_list (Array.map integers l)))
+        let rows = Array.map (Array.map (rounded digits)) l in
+        (Array.to_list (Array.map weight d), integer_rows rows))
       (exact_ldl lowered) in
   if n > exact_order then [] else List.map at_margin [16; 64; 128; 256; 400]
 
@@ -253,12 +257,8 @@ let definite_factors pencils diagonal (region : Kernel.region) =
       let factor strict e =
         let entry i j = Kernel.symmetric_part p d e i j in
         let s = Array.map (fun i -> Array.map (entry i) active) active in
-        let accepted way = match way () with
-          | None -> None
-          | Some (weights, factor_rows) ->
-            let f = { Kernel.weights; factor_rows } in
-            if Kernel.definite_end p d strict e region f then Some f else None in
-        List.find_map accepted (ways strict s) in
+        first_accepted (fun (weights, factor_rows) -> { Kernel.weights; factor_rows })
+          (Kernel.definite_end p d strict e region) (ways strict s) in
       match factor true region.lower with
       | None -> None
       | Some low ->
@@ -283,6 +283,21 @@ let signed_factors (p : Kernel.enclosed) lo hi =
         { Kernel.weights = List.init p.size_of (fun _ -> Z.one);
           factor_rows = Array.to_list (Array.map Array.to_list rows) }) (factor_rows strict s) in
   match factor true lo, factor (Z.sign (snd hi) > 0) hi with
+  | Some low, Some high -> Some (low, high)
+  | _ -> None
+
+(* The same over a region, each end with a scale. *)
+let signed_ends (p : Kernel.enclosed) (region : Kernel.region) =
+  let n = p.size_of in
+  let at strict e =
+    let form c = Array.init n (fun i -> Array.init n (fun j ->
+        Z.mul c (Kernel.signed_part p e i j))) in
+    let make (scale, weights, rows) =
+      let weights = Option.value weights ~default:(List.init n (fun _ -> Z.one)) in
+      scale, { Kernel.weights; factor_rows = integer_rows rows } in
+    first_accepted make (fun (scale, f) -> Kernel.signed_end_times scale p strict e f)
+      (ways_with_scale strict n form) in
+  match at true region.lower, at (Z.sign (snd region.upper) > 0) region.upper with
   | Some low, Some high -> Some (low, high)
   | _ -> None
 

@@ -579,14 +579,13 @@ let absence (problem : Scaling.t) (certificate : Certificate.critical) () =
             (Critical.build context leaf (Kernel.WithoutAnchor Kernel.BoxHalves) pieces)) in
     let anchoring, tree = match condensation with
       | None ->
-        let parts = Critical.exact_parts members.radii plain friction in
+        let parts = Critical.exact_parts context members.radii Z.zero in
         let scales = Critical.common_scales plain friction slip_list context.slip_factor in
         Critical.nothing_bounded [], build (Critical.member_leaf_without_free context parts scales)
       | Some condensation ->
         let anchored = timed "condensation" (fun () ->
-            let anchored = Critical.anchored_of context plain friction slip_list condensation
-                (Critical.anchors_of_boxes pieces) in
-            Critical.with_tail context anchored plain friction slip_list) in
+            Critical.anchored_of context plain friction slip_list condensation
+              (Critical.anchors_of_boxes pieces)) in
         anchored.anchoring, build (Critical.anchored_leaf context anchored) in
     Kernel.MembersAbsence (context.mu_low, context.mu_high, members.shares, members.share_unit,
                            anchoring, tree) in

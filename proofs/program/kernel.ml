@@ -803,6 +803,46 @@ let definite p d r low high =
 let box_definite p p' r d f f' =
   (&&) (definite p d r (fst f) (snd f)) (definite p' d r (fst f') (snd f'))
 
+(** val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
+
+let signed_part p e i j =
+  if eq_op nat_eqType (Obj.magic i) (Obj.magic j)
+  then Big_int_Z.sub_big_int
+         (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+           (center p e i i))
+         (sumZ (indices p) (fun k -> Big_int_Z.add_big_int (radius p e i k) (radius p e k i)))
+  else Big_int_Z.add_big_int (center p e i j) (center p e j i)
+
+(** val signed_end_times : Big_int_Z.big_int -> enclosed -> bool -> point -> factor -> bool **)
+
+let signed_end_times c p strict e f =
+  (&&) (Z.ltb Big_int_Z.zero_big_int c)
+    ((&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
+      ((&&) (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic p.size_of))
+        (covered (fun i j -> Big_int_Z.mult_big_int c (signed_part p e i j))
+          (weighted_dot f.weights) strict (zip (indices p) f.factor_rows))))
+
+(** val signed_end : enclosed -> bool -> point -> factor -> bool **)
+
+let signed_end =
+  signed_end_times Big_int_Z.unit_big_int
+
+(** val signed_between :
+    enclosed -> region -> ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool **)
+
+let signed_between p r f =
+  (&&) (signed_end_times (fst (fst f)) p true r.lower (snd (fst f)))
+    (signed_end_times (fst (snd f)) p (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) r.upper
+      (snd (snd f)))
+
+(** val box_signed :
+    enclosed -> enclosed -> region ->
+    ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) ->
+    ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool **)
+
+let box_signed p p' r f f' =
+  (&&) (signed_between p r f) (signed_between p' r f')
+
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
              width : Big_int_Z.big_int }
 
@@ -4557,6 +4597,9 @@ type critical_leaf =
 | BoxDefinite of Big_int_Z.big_int list * (factor * factor) * (factor * factor)
 | BoxRegular of regular
 | BoxWhole of whole * whole
+| BoxSigned of Big_int_Z.big_int
+   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
+   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
 | BoxHalves
 
 (** val check_parts :
@@ -4697,13 +4740,26 @@ let widened radii p =
     (wider p.center_a p.radius_a); radius_b = (wider p.center_b p.radius_b) }
   | None -> p
 
-(** val exact_part : pencil -> (sparse_row list * sparse_row list) -> enclosed **)
+(** val exact_part :
+    int -> Big_int_Z.big_int -> pencil -> (sparse_row list * sparse_row list) -> enclosed **)
 
-let exact_part q radii =
+let exact_part first factor0 q radii =
   let ix = iota 0 q.order in
-  let table0 = fun rows -> map0 (fun i -> map0 (fun j -> lookup (nth [] rows i) j) ix) ix in
+  let times = fun i v ->
+    if leq (Natural.succ i) first then Big_int_Z.mult_big_int factor0 v else v
+  in
+  let table0 = fun rows ->
+    map0 (fun i -> map0 (fun j -> times i (lookup (nth [] rows i) j)) ix) ix
+  in
   { size_of = q.order; center_a = (table0 q.rows_a); center_b = (table0 q.rows_b); radius_a =
   (table0 (fst radii)); radius_b = (table0 (snd radii)) }
+
+(** val radii_of_all : int -> part_radii -> part_radii **)
+
+let radii_of_all nf radii =
+  { plain_radii = radii.plain_radii; friction_radii = radii.friction_radii; friction_shares =
+    (cat (nseq nf Big_int_Z.zero_big_int) radii.friction_shares); share_unit =
+    radii.share_unit }
 
 (** val swapped_radii :
     (sparse_row list * sparse_row list) option -> (sparse_row list * sparse_row list) option **)
@@ -4771,6 +4827,25 @@ let check_about z0 radii low_a low_b b fams grain r low high tr =
             (widened radii (local_part z0 low_a low_b a' (snd fams) r.lower r.upper grain))) tr
           (local_region r) low high)))
 
+(** val check_exact :
+    zero_system -> part_radii -> region -> point -> point -> critical_leaf -> bool **)
+
+let check_exact z0 rad r low high l =
+  let nf = size (part_plain z0).free in
+  let p' =
+    widened (Some (radii_of_all nf rad))
+      (exact_part nf Big_int_Z.zero_big_int (part_friction z0) rad.friction_radii)
+  in
+  (match l with
+   | BoxSigned (factor0, f, f') ->
+     let p = exact_part nf factor0 (part_plain z0) rad.plain_radii in
+     (&&) (Z.leb Big_int_Z.zero_big_int factor0)
+       (box_signed (mixed low p p') (mixed high p p') r f f')
+   | _ ->
+     (&&) (nilp (part_plain z0).free)
+       (check_parts (exact_part 0 Big_int_Z.zero_big_int (part_plain z0) rad.plain_radii) p' r
+         low high l))
+
 (** val no_box_anchor : box_anchor **)
 
 let no_box_anchor =
@@ -4802,10 +4877,7 @@ let check_anchored_box z0 radii w families0 r low high = function
    | None -> false)
 | WithoutAnchor l0 ->
   (match radii with
-   | Some rad ->
-     (&&) (nilp (part_plain z0).free)
-       (check_parts (exact_part (part_plain z0) rad.plain_radii)
-         (widened radii (exact_part (part_friction z0) rad.friction_radii)) r low high l0)
+   | Some rad -> check_exact z0 rad r low high l0
    | None -> check_whole_leaf z0 r low high l0)
 
 (** val both_bounded : zero_system -> part_radii option -> box_anchoring -> bool **)
@@ -5915,24 +5987,6 @@ let check_equilibrium b mu amounts states0 m w =
         ((&&) (exact_rows m ineqs)
           (check_rows b.body_degrees (map0 (fun row -> scaled_row m row) eqs)
             (map0 (fun row -> scaled_row m row) ineqs) w))))
-
-(** val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int **)
-
-let signed_part p e i j =
-  if eq_op nat_eqType (Obj.magic i) (Obj.magic j)
-  then Big_int_Z.sub_big_int
-         (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
-           (center p e i i))
-         (sumZ (indices p) (fun k -> Big_int_Z.add_big_int (radius p e i k) (radius p e k i)))
-  else Big_int_Z.add_big_int (center p e i j) (center p e j i)
-
-(** val signed_end : enclosed -> bool -> point -> factor -> bool **)
-
-let signed_end p strict e f =
-  (&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
-    ((&&) (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic p.size_of))
-      (covered (signed_part p e) (weighted_dot f.weights) strict
-        (zip (indices p) f.factor_rows)))
 
 (** val check_rates :
     system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> factor ->

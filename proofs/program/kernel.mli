@@ -318,6 +318,20 @@ val box_definite :
   enclosed -> enclosed -> region -> Big_int_Z.big_int list -> (factor * factor) ->
   (factor * factor) -> bool
 
+val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int
+
+val signed_end_times : Big_int_Z.big_int -> enclosed -> bool -> point -> factor -> bool
+
+val signed_end : enclosed -> bool -> point -> factor -> bool
+
+val signed_between :
+  enclosed -> region -> ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool
+
+val box_signed :
+  enclosed -> enclosed -> region ->
+  ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) ->
+  ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool
+
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
              width : Big_int_Z.big_int }
 
@@ -1549,6 +1563,9 @@ type critical_leaf =
 | BoxDefinite of Big_int_Z.big_int list * (factor * factor) * (factor * factor)
 | BoxRegular of regular
 | BoxWhole of whole * whole
+| BoxSigned of Big_int_Z.big_int
+   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
+   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
 | BoxHalves
 
 val check_parts : enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
@@ -1595,7 +1612,10 @@ type part_radii = { plain_radii : (sparse_row list * sparse_row list);
 
 val widened : part_radii option -> enclosed -> enclosed
 
-val exact_part : pencil -> (sparse_row list * sparse_row list) -> enclosed
+val exact_part :
+  int -> Big_int_Z.big_int -> pencil -> (sparse_row list * sparse_row list) -> enclosed
+
+val radii_of_all : int -> part_radii -> part_radii
 
 val swapped_radii :
   (sparse_row list * sparse_row list) option -> (sparse_row list * sparse_row list) option
@@ -1619,6 +1639,8 @@ val check_about :
   zero_system -> part_radii option -> form_bound -> form_bound -> box_anchor ->
   (anchor_family * anchor_family) -> Big_int_Z.big_int -> region -> point -> point ->
   critical_leaf tree -> bool
+
+val check_exact : zero_system -> part_radii -> region -> point -> point -> critical_leaf -> bool
 
 val no_box_anchor : box_anchor
 
@@ -2010,10 +2032,6 @@ val well_stated : rational_body -> rational0 -> rational0 list -> stated list ->
 val check_equilibrium :
   rational_body -> rational0 -> rational0 list -> stated list -> Big_int_Z.big_int ->
   equilibrium_evidence -> bool
-
-val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int
-
-val signed_end : enclosed -> bool -> point -> factor -> bool
 
 val check_rates :
   system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> factor -> factor
