@@ -15,7 +15,7 @@
                            (Regular.v);
      BoxWhole w w'         a form is positive, for the whole pencils at both ends of the interval
                            of mu;
-     BoxSigned c f f'      the forms of enclosed parts of all variables, free ones included, are
+     BoxSigned c f f'      the forms of enclosed parts of all variables, the free rows times c, are
                            positive (Signed.v), for members of a body (CriticalAnchors.v);
      BoxHalves             right and left of a z particle both move, so no motion is in the box.
 

@@ -10,8 +10,8 @@
 From Coq Require Import ZArith.
 From Coq Require Import ExtrOcamlBasic ExtrOcamlZBigInt.
 From mathcomp Require Import all_ssreflect.
-From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Signed Root RootLeaf Pinned Cover.
-From Mceip Require Import Number Condensation Pencil Whole Complete Claim System ZeroReaction.
+From Mceip Require Import Integers Tree Enclosed Farkas Covered Definite Signed Root RootLeaf.
+From Mceip Require Import Pinned Cover Number Condensation Pencil Whole Complete Claim System ZeroReaction.
 From Mceip Require Import Lifted EnclosedClaim PlainMcp Signs Support Families.
 From Mceip Require Import Series Anchor AnchorLeaf Varying Covers Boxes Regular.
 From Mceip Require Import Critical CriticalAnchors Presence PresenceAnchors.

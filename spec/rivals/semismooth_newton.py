@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A rival for `mceip conform`: semismooth Newton on the Fischer-Burmeister function, with numpy.
 
-    mceip conform --as-pencil --lines -- python3 spec/rivals/semismooth_newton.py
+    mceip conform --as-pencil --lines --except eigenvalue -- python3 spec/rivals/semismooth_newton.py
 
 phi(a, b) = sqrt(a^2 + b^2) - a - b vanishes exactly where a, b >= 0 and ab = 0. The equations are
 F_f = 0 and phi(z_i, F_i) = 0; a step solves with an element of their generalised Jacobian (De Luca,

@@ -2,8 +2,8 @@
 """A rival for `mceip conform`: the mixed complementarity solvers of Siconos.
 
     apt-get install --no-install-recommends python3-siconos
-    mceip conform --as-pencil --lines -- /usr/bin/python3 spec/rivals/siconos_adapter.py
-    mceip conform --as-pencil --lines -- /usr/bin/python3 spec/rivals/siconos_adapter.py min
+    mceip conform --as-pencil --lines --except eigenvalue -- /usr/bin/python3 spec/rivals/siconos_adapter.py
+    mceip conform --as-pencil --lines --except eigenvalue -- /usr/bin/python3 spec/rivals/siconos_adapter.py min
 
 Newton's method on the Fischer-Burmeister function (`mcp_newton_FB_FBLSA`, the default) or on the
 minimum function (`min`: `mcp_newton_min_FBLSA`), both with a line search on the former. Options are

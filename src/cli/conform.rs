@@ -320,7 +320,7 @@ fn print_cases(args: &Args, groups: &[Group]) -> Result<u8, CliError> {
         let text = if args.json {
             format!("{:#}\n", case.json())
         } else {
-            format!("{}\n", write_problem(&case.problem))
+            format!("{}\n", write_problem(case.problem()))
         };
         print(&text)?;
     }
@@ -423,7 +423,7 @@ fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> 
             continue;
         }
 
-        let mut files = write_problem_beside_matrices(&case.problem);
+        let mut files = write_problem_beside_matrices(case.problem());
         files.push(("answer.json", format!("{:#}\n", case.answer_json())));
         let place = folder.join(file_name(&case.id)?);
         make(&place)?;

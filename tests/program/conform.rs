@@ -280,7 +280,7 @@ fn wrong_answers_of_a_case(case: &Case) -> Vec<Bug> {
             judged.detail
         );
 
-        let report = ForeignReport::read(&text, &case.problem, case.reduced()).unwrap();
+        let report = ForeignReport::read(&text, case.problem(), case.reduced()).unwrap();
         if bug.expected() == Label::Wrong && bug != Bug::EndlessContinuum {
             first_solution_is_refuted(case, bug, &report);
         }
@@ -599,7 +599,7 @@ fn cases_are_listed_printed_and_run_one_by_one() {
     let case = cases().into_iter().find(|case| case.id == id).unwrap();
     let problem = exits(0, &format!("conform --print {id}"));
     let problem = read_problem(&problem, Path::new("."));
-    assert_eq!(problem.unwrap().sha256(), case.problem.sha256());
+    assert_eq!(problem.unwrap().sha256(), case.problem().sha256());
 
     let whole = exits_with_json(0, &format!("conform --print {id} --json"));
     assert_eq!(whole["answer"], case.answer_json());

@@ -207,7 +207,7 @@ fn a_best_known_list_may_be_improved() {
 fn a_certified_answer_holds_for_the_reduced_pencil() {
     let case = Case::answer(&draft("system-1"), true, &Watch::nobody()).unwrap();
     let answer = case.answer_json();
-    assert_eq!(answer["problem_sha256"], case.problem.sha256());
+    assert_eq!(answer["problem_sha256"], case.problem().sha256());
     assert!(answer["variables"].is_null());
 
     let own = case.judge(&answer.to_string());

@@ -143,11 +143,9 @@ impl Listed {
     /// A solution of the reflected pencil (A, -B) as one of (A, B): the value changes its sign.
     #[must_use]
     pub fn reflected(self) -> Listed {
-        let exact = self.exact.map(|(mut polynomial, [lo, hi])| {
-            for odd in polynomial.iter_mut().skip(1).step_by(2) {
-                *odd = -&*odd;
-            }
-            (polynomial, [-hi, -lo])
+        let exact = self.exact.map(|(polynomial, [lo, hi])| {
+            let reflected = Poly::new(polynomial).reflected();
+            (reflected.coeffs().to_vec(), [-hi, -lo])
         });
 
         Listed {

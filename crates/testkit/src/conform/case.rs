@@ -83,9 +83,7 @@ pub struct Case {
     pub comment: String,
     /// What it is about.
     pub flags: BTreeSet<Flag>,
-    /// The problem.
-    pub problem: Problem,
-    /// The same with its reduction, and its reflection where values below 0 are asked for.
+    /// The problem with its reduction, and its reflection where values below 0 are asked for.
     pub signs: BothSigns,
     /// Its answer.
     pub answer: CaseAnswer,
@@ -130,12 +128,11 @@ impl Case {
             id: draft.id.clone(),
             comment: draft.comment.clone(),
             flags,
-            problem: draft.problem.clone(),
             signs,
             answer,
             difficulty: draft.difficulty,
         };
-        if as_pencil && matches!(case.problem.body(), Body::System(_)) {
+        if as_pencil && matches!(case.problem().body(), Body::System(_)) {
             case.replace_by_its_pencil()
                 .map_err(|e| TestkitError::problem(&draft.id, e))?;
         }
@@ -143,7 +140,12 @@ impl Case {
         Ok(case)
     }
 
-    /// The reduction of its problem.
+    /// The problem.
+    pub fn problem(&self) -> &Problem {
+        &self.signs.own().problem
+    }
+
+    /// Its reduction.
     pub fn reduced(&self) -> &Reduced {
         &self.signs.own().reduced
     }
@@ -151,13 +153,12 @@ impl Case {
     /// Puts the reduced pencil in place of the problem. Flags and answer stay.
     fn replace_by_its_pencil(&mut self) -> Result<(), ModelError> {
         let body = Body::Pencil(self.reduced().pencil.clone());
-        let window = self.problem.window().clone();
-        let pencil = Problem::new(body, self.problem.unknown(), window)?;
+        let window = self.problem().window().clone();
+        let pencil = Problem::new(body, self.problem().unknown(), window)?;
 
-        self.problem = pencil.named(self.id.clone());
-        self.signs = signs_of(&self.problem)?;
+        self.signs = signs_of(&pencil.named(self.id.clone()))?;
         if let CaseAnswer::Certified(answer) = &mut self.answer {
-            answer.is_about_the_pencil(&self.problem);
+            answer.is_about_the_pencil(&self.signs.own().problem);
         }
         Ok(())
     }
@@ -165,7 +166,7 @@ impl Case {
     /// The same under another name, without comment and warnings: nothing in it tells which case it
     /// is. Digest and answer stay.
     pub(super) fn problem_named(&self, name: String) -> Problem {
-        let mut problem = self.problem.clone().named(name);
+        let mut problem = self.problem().clone().named(name);
         problem.comment = None;
         problem.warnings.clear();
         problem
@@ -212,12 +213,12 @@ impl Case {
     fn enumerated_json(&self, found: &Enumeration) -> Value {
         let mut solutions = Vec::new();
         for solution in &found.solutions {
-            let listed = Listed::of_solution(&self.problem, self.reduced(), solution);
+            let listed = Listed::of_solution(self.problem(), self.reduced(), solution);
             solutions.push(listed);
         }
 
         let mut answer = solutions_json(&Report {
-            problem: &self.problem,
+            problem: self.problem(),
             reduced: self.reduced(),
             solutions,
             claim: Claimed::complete_if(found.is_complete_list()),
@@ -239,7 +240,7 @@ impl Case {
     /// The case as the pack has it, without wrong answers.
     pub fn json(&self) -> Value {
         // Our own writer's JSON is read without error.
-        let problem = write_problem(&self.problem);
+        let problem = write_problem(self.problem());
         let problem: Value = serde_json::from_str(&problem).unwrap_or_default();
 
         let mut case = json!({

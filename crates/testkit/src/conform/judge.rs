@@ -102,7 +102,7 @@ pub(super) fn judge_until(case: &Case, text: &str, is_over: &dyn Fn() -> bool) -
         return Judgement::new(Label::Malformed, "it printed nothing on stdout");
     }
 
-    let report = match ForeignReport::read(text, &case.problem, case.reduced()) {
+    let report = match ForeignReport::read(text, case.problem(), case.reduced()) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e @ ForeignError::Digits { .. }) => {
@@ -364,7 +364,7 @@ impl MetParts<'_> {
             return false;
         };
 
-        let given = GivenPencil::of(&self.case.problem, self.case.reduced());
+        let given = GivenPencil::of(self.case.problem(), self.case.reduced());
         let mut x = integer_x(c);
         x.truncate(given.order()); // without z of the linear form of a quadratic pencil
         if found.is_reflected {

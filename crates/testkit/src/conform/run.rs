@@ -158,7 +158,7 @@ impl Run<'_> {
         self.watch.report(&progress);
 
         Ok(timed.map(|timed| CaseOutcome {
-            problem_sha256: case.problem.sha256(),
+            problem_sha256: case.problem().sha256(),
             difficulty: case.difficulty,
             completeness: case.completeness(),
             expected: case.parts(),
@@ -185,7 +185,7 @@ impl Run<'_> {
         let input = if self.plan.anonymous {
             write_problem(&case.problem_named(format!("problem {}", place + 1)))
         } else {
-            write_problem(&case.problem)
+            write_problem(case.problem())
         };
         if self.plan.by_lines {
             return self.judgement_by_lines(case, &input);

@@ -87,7 +87,7 @@ impl Case {
         }
 
         if !self.has_solutions() {
-            let zeros = vec!["0"; GivenPencil::of(&self.problem, self.reduced()).order()];
+            let zeros = vec!["0"; GivenPencil::of(self.problem(), self.reduced()).order()];
             let entry = json!({ "value": "1", "x": zeros });
             out.push(WrongAnswer::new(Bug::ZeroVector, vec![entry]));
         }
@@ -218,13 +218,13 @@ struct Spurious {
 
 /// Eigenpairs that are no solutions, the first of each kind.
 fn spurious(case: &Case) -> Vec<Spurious> {
-    let pencil = &IntegerPencil::of(&case.problem, case.reduced());
+    let pencil = &IntegerPencil::of(case.problem(), case.reduced());
     let slip = case.reduced().pencil.slip();
     if slip.len() > SPECTRUM_SLIP {
         return Vec::new();
     }
 
-    let window = case.problem.real_window();
+    let window = case.problem().real_window();
     let far_below = whole(-1_000_000);
     let min = window.min().unwrap_or(&far_below);
     let mut found = Vec::new();
@@ -238,7 +238,7 @@ fn spurious(case: &Case) -> Vec<Spurious> {
         }
     }
 
-    let is_eigenvalue = case.problem.unknown() == Unknown::Eigenvalue;
+    let is_eigenvalue = case.problem().unknown() == Unknown::Eigenvalue;
     if min.is_zero() && !is_eigenvalue {
         let zero = Rational::zero();
         for (kind, pair) in eigenpairs(pencil, &slip, &far_below, Some(&zero)) {
@@ -277,8 +277,8 @@ fn is_clearly_mixed(s: &Solution, slip: &[usize]) -> bool {
 
 /// A solution of the problem without its window, clearly outside of that.
 fn outside(case: &Case) -> Option<Solution> {
-    let window = case.problem.real_window();
-    let everywhere = match case.problem.unknown() {
+    let window = case.problem().real_window();
+    let everywhere = match case.problem().unknown() {
         Unknown::Eigenvalue => RealWindow::ALL,
         Unknown::Lambda2 | Unknown::Mu => RealWindow::from(&Window::all()),
     };
@@ -286,7 +286,7 @@ fn outside(case: &Case) -> Option<Solution> {
         return None;
     }
 
-    let pencil = IntegerPencil::of(&case.problem, case.reduced());
+    let pencil = IntegerPencil::of(case.problem(), case.reduced());
     let all = enumerate(pencil, everywhere).ok()?;
     all.solutions
         .into_iter()
