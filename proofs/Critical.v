@@ -34,7 +34,7 @@
    Pages: spec/certificates.md, 5.18; spec/zero-reaction.md, Z.3 (frictions) and Z.4.
    Rust: crates/check/src/critical.rs, cover/critical.rs. *)
 
-From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Cover
+From Mceip Require Import Base Integers Sums Tree Enclosed Farkas Covered Definite Signed Cover
   Condensation Pencil Whole Complete System ZeroReaction ZeroPencil ZeroPower Boxes Regular.
 
 Inductive critical_leaf :=
@@ -42,7 +42,7 @@ Inductive critical_leaf :=
   | BoxDefinite of seq Z & factor * factor & factor * factor
   | BoxRegular of regular
   | BoxWhole of whole & whole
-  | BoxSigned of Z & (Z * factor) * (Z * factor) & (Z * factor) * (Z * factor)
+  | BoxSigned of Z & signed_ends & signed_ends
   | BoxHalves.
 
 (* Evidence about enclosures of both parts. *)

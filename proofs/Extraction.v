@@ -73,4 +73,4 @@ Extraction "kernel.ml"
   is_apart applied_row equations
   inequalities scaled_row signed_part check_given_rates check_given_stable mu_pencil k_rows kappa_in
   width_bound check_members_absent radii_of_parts scaled_radii widened exact_part radii_of_all
-  signed_end_times check_radii_absent told_apart.
+  signed_end check_radii_absent told_apart.

@@ -26,13 +26,18 @@ Definition signed_part (P : enclosed) e (i j : nat) :=
   then 2 * center P e i i - sumZ (indices P) (fun k => radius P e i k + radius P e k i)
   else center P e i j + center P e j i.
 
-(* The factor covers c S_e. *)
-Definition signed_end_times c P strict e f :=
+(* The factor f covers c S_e. *)
+Definition signed_end P strict e (cf : Z * factor) :=
+  let: (c, f) := cf in
   [&& 0 <? c, all (fun w => 0 <=? w) (weights f), size (factor_rows f) == size_of P &
       covered (fun i j => c * signed_part P e i j) (weighted_dot (weights f)) strict
         (zip (indices P) (factor_rows f))].
 
-Definition signed_end := signed_end_times 1.
+(* Factors with their scales at both ends of an interval. *)
+Definition signed_ends := ((Z * factor) * (Z * factor))%type.
+
+Definition signed_between P (lo hi : point) (f : signed_ends) :=
+  signed_end P true lo f.1 && signed_end P (0 <? hi.2) hi f.2.
 
 End Checker.
 
@@ -103,11 +108,11 @@ rewrite /twice [toR 2%Z](_ : _ = 2%:R) //.
 by move: (\sum_(j <- ix) _) (x i) (center_of _ _ _) => *; ring.
 Qed.
 
-Lemma signed_times_sound c strict e f : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
-  signed_end_times c P strict e f -> 0 <= quadratic P A B [::] x e /\
+Lemma signed_end_sound strict e cf : 0 <= toR e.1 :> R -> 0 <= toR e.2 :> R ->
+  signed_end P strict e cf -> 0 <= quadratic P A B [::] x e /\
   (strict -> (exists2 i, i \in ix & x i != 0) -> 0 < quadratic P A B [::] x e).
 Proof.
-move=> p q /and4P[c0 w0 /eqP sz C].
+case: cf => c f p q /and4P[c0 w0 /eqP sz C].
 have size_rows : size (factor_rows f) == size ix by rewrite size_iota sz.
 have [||form0 form1] := covered_list (dT := 0%N) (dU := [::]) (l := ix) (item := id) x
   (erefl _) size_rows _ (weighted_gram R _ _ w0) _ C => //.
@@ -126,60 +131,44 @@ rewrite -timesE in le; split; first by rewrite -(pmulr_rge0 _ c2) (le_trans form
 by move=> st nonzero; rewrite -(pmulr_rgt0 _ c2) (lt_le_trans _ le) // form1.
 Qed.
 
+(* x'T(t) x between definite ends. *)
+Lemma signed_form t lo hi f : ordered lo hi -> between t lo hi -> signed_between P lo hi f ->
+  (exists2 i, i \in ix & x i != 0) -> 0 < \sum_(i <- ix) x i * image P A B t x i.
+Proof.
+move=> O W /andP[L H] nonzero; have [p q p' q'] := ordered_ge0 R O.
+have [_ low1] := signed_end_sound p q L; have [high0 high1] := signed_end_sound p' q' H.
+have := form_between O W (low1 isT nonzero) high0 (fun st => high1 st nonzero).
+by under eq_bigr do rewrite /weight_of nth_nil toR1 mul1r.
+Qed.
+
 (* Between definite ends the pencil has the property of a P-matrix. *)
-Lemma reversed_zero t lo hi low high : ordered lo hi -> between t lo hi ->
-  signed_end P true lo low -> signed_end P (0 <? hi.2)%Z hi high ->
+Lemma reversed_zero t lo hi f : ordered lo hi -> between t lo hi -> signed_between P lo hi f ->
   (forall i, i \in ix -> x i * image P A B t x i <= 0) -> forall i, i \in ix -> x i = 0.
 Proof.
-move=> O W L H reversed i Hi; have [//|xi] := eqVneq (x i) 0.
-have nonzero : exists2 i, i \in ix & x i != 0 by exists i.
-have [p q p' q'] := ordered_ge0 R O.
-have [_ low1] := signed_times_sound p q L; have [high0 high1] := signed_times_sound p' q' H.
-have := form_between O W (low1 isT nonzero) high0 (fun st => high1 st nonzero).
-rewrite ltNge -oppr_ge0 -sumrN big_seq sumr_ge0 // => j Hj.
-by rewrite /weight_of nth_nil toR1 mul1r oppr_ge0 reversed.
+move=> O W ok reversed i Hi; have [//|xi] := eqVneq (x i) 0.
+have := signed_form O W ok (ex_intro2 _ _ i Hi xi).
+by rewrite ltNge -oppr_ge0 -sumrN big_seq sumr_ge0 // => j Hj; rewrite oppr_ge0 reversed.
 Qed.
 
 End Form.
 
 (* The same for the enclosed pencils at both ends of an interval of another parameter. *)
-Definition signed_between P r (f : (Z * factor) * (Z * factor)) :=
-  signed_end_times f.1.1 P true (lower r) f.1.2 &&
-  signed_end_times f.2.1 P (0 <? (upper r).2)%Z (upper r) f.2.2.
+Definition box_signed P P' r (f f' : signed_ends) :=
+  signed_between P (lower r) (upper r) f && signed_between P' (lower r) (upper r) f'.
 
-Definition box_signed P P' r (f f' : (Z * factor) * (Z * factor)) :=
-  signed_between P r f && signed_between P' r f'.
-
-Section Box.
-
-Variables (R : realFieldType) (P P' : enclosed) (A B A' B' : nat -> nat -> R) (r : region).
-Hypotheses (E : encloses P A B) (E' : encloses P' A' B') (same : size_of P' = size_of P).
-Hypothesis O : ordered (lower r) (upper r).
-Variables (t a b : R) (x : nat -> R).
-Hypothesis W : between t (lower r) (upper r).
-Hypotheses (a0 : 0 <= a) (b0 : 0 <= b) (ab : 0 < a \/ 0 < b).
-Hypothesis nonzero : exists2 i, i \in indices P & x i != 0.
-
-Lemma signed_form P1 (C D : nat -> nat -> R) f : encloses P1 C D -> size_of P1 = size_of P ->
-  signed_between P1 r f -> 0 < \sum_(i <- indices P1) x i * image P1 C D t x i.
-Proof.
-move=> E1 same1 /andP[L H]; have [p q p' q'] := ordered_ge0 R O.
-have nonzero1 : exists2 i, i \in indices P1 & x i != 0 by rewrite (same_indices same1).
-have [_ low1] := signed_times_sound E1 x p q L.
-have [high0 high1] := signed_times_sound E1 x p' q' H.
-have := form_between O W (low1 isT nonzero1) high0 (fun st => high1 st nonzero1).
-by under eq_bigr do rewrite /weight_of nth_nil toR1 mul1r.
-Qed.
-
-Theorem box_signed_sound f f' : box_signed P P' r f f' ->
+Theorem box_signed_sound (R : realFieldType) P P' (A B A' B' : nat -> nat -> R) r t a b x f f' :
+  encloses P A B -> encloses P' A' B' -> size_of P' = size_of P ->
+  ordered (lower r) (upper r) -> between t (lower r) (upper r) ->
+  0 <= a -> 0 <= b -> 0 < a \/ 0 < b -> (exists2 i, i \in indices P & x i != 0) ->
+  box_signed P P' r f f' ->
   \sum_(i <- indices P) x i * box_image P P' A B A' B' t a b x i = 0 -> False.
 Proof.
-case/andP=> low high zero.
-have l := signed_form E erefl low; have h := signed_form E' same high.
+move=> E E' same O W a0 b0 ab nonzero /andP[low high] zero.
+have l := signed_form E O W low nonzero.
+have h : 0 < \sum_(i <- indices P') x i * image P' A' B' t x i.
+  by apply: (signed_form E' O W high); rewrite (same_indices same).
 have := combination_gt0 a0 b0 ab l h.
 rewrite (same_indices same) !mulr_sumr -big_split /=.
 rewrite (eq_bigr (fun i => x i * box_image P P' A B A' B' t a b x i)) ?zero ?ltxx // => i _.
 by rewrite /box_image mulrDr !(mulrCA _ (x i)).
 Qed.
-
-End Box.

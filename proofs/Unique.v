@@ -23,27 +23,26 @@ Section Checker.
 
 Local Open Scope Z_scope.
 
-Definition check_rates (s : system) lo hi w low high :=
+Definition check_rates (s : system) lo hi w f :=
   let Q := pencil_of s Mu in
   let D := blocks_of Q in
   let P := condensed D w in
   [&& system_wellformed s Mu, wellformed Q, free_rows_constant Q, check_elimination D w &
-      [&& 0 <? lo.1, 0 <? lo.2, ordered lo hi, signed_end P true lo low &
-          signed_end P (0 <? hi.2) hi high]].
+      [&& 0 <? lo.1, 0 <? lo.2, ordered lo hi & signed_between P lo hi f]].
 
 (* The system without particles of zero reaction; the factors of Rational.v. *)
-Definition check_given_rates c B lo hi w low high :=
-  [&& exact_system c B, nilp (with_zero B) & check_rates (scaled_system c B) lo hi w low high].
+Definition check_given_rates c B lo hi w f :=
+  [&& exact_system c B, nilp (with_zero B) & check_rates (scaled_system c B) lo hi w f].
 
 End Checker.
 
 Section Pencil.
 
-Variables (R : rcfType) (Q : pencil) (w : elimination) (lo hi : point) (low high : factor).
+Variables (R : rcfType) (Q : pencil) (w : elimination) (lo hi : point).
+Variable f : signed_ends.
 Notation D := (blocks_of Q).
 Hypotheses (wf : wellformed Q) (constant : free_rows_constant Q) (elim : check_elimination D w).
-Hypotheses (O : ordered lo hi) (L : signed_end (condensed D w) true lo low).
-Hypothesis H : signed_end (condensed D w) (0 <? hi.2)%Z hi high.
+Hypotheses (O : ordered lo hi) (between_ends : signed_between (condensed D w) lo hi f).
 
 Lemma pencil_reversed_zero (t : R) x : between t lo hi ->
   (forall i, i \in free Q -> reaction Q t x i = 0) ->
@@ -55,7 +54,7 @@ have xfE : forall k, k \in iota 0 (free_count D) ->
     free_of Q x k = free_part D (slip_of Q x) k.
   exact: (free_part_of_rows wf constant positive rows_f).
 have xs0 j : j \in iota 0 (slip_count D) -> slip_of Q x j = 0.
-  apply: (reversed_zero (condensation_encloses R positive shaped) O W L H) => i Hi.
+  apply: (reversed_zero (condensation_encloses R positive shaped) O W between_ends) => i Hi.
   have lt_i : (i < size (slip Q))%N by move: Hi; rewrite mem_iota.
   rewrite (condensed_reaction wf w t lt_i xfE).
   have scale0 : 0 < scale_of R w i * toR (unit_of w) ^+ 2.
@@ -72,8 +71,8 @@ End Pencil.
 
 Section System.
 
-Variables (R : rcfType) (s : system) (lo hi : point) (w : elimination) (low high : factor).
-Hypothesis checked : check_rates s lo hi w low high.
+Variables (R : rcfType) (s : system) (lo hi : point) (w : elimination) (f : signed_ends).
+Hypothesis checked : check_rates s lo hi w f.
 
 Notation all_dofs := (iota 0 (dofs s)).
 Notation ns := (size (particles s)).
@@ -85,14 +84,14 @@ Lemma system_reversed_zero (mu : R) v : between mu lo hi ->
      along (normal p) p v = 0 /\ cone s 0 mu v p * slip_rate v p <= 0) ->
   forall d, d \in all_dofs -> v d = 0.
 Proof.
-case/and5P: checked => wf wf_Q constant elim /and5P[_ _ O L H] W at_rest free_v slips.
+case/and5P: checked => wf wf_Q constant elim /and4P[_ _ O ends] W at_rest free_v slips.
 pose x := variables_of s v.
 have same : forall d, d \in all_dofs -> motion s x d = v d.
   by apply: (motion_restored wf) => // j /slips[].
 have forceE d : force s 0 (motion s x) d = force s 0 v d.
   by rewrite /force; apply: sum_eq => j Hj; rewrite same.
 have l0 := unit_length_gt0 R wf.
-have x0 := pencil_reversed_zero wf_Q constant elim O L H W (x := x).
+have x0 := pencil_reversed_zero wf_Q constant elim O ends W (x := x).
 have zero : forall i, i \in iota 0 (order (pencil_of s Mu)) -> x i = 0.
   apply: x0 => [i|i /slip_variable[j lt_j ->]].
     rewrite free_variable => lt_i; rewrite (free_reaction wf) // forceE.
@@ -117,8 +116,8 @@ End System.
 Section Given.
 
 Variables (R : rcfType) (c : scales) (B : rational_system) (lo hi : point) (w : elimination).
-Variables low high : factor.
-Hypothesis checked : check_given_rates c B lo hi w low high.
+Variable ends : signed_ends.
+Hypothesis checked : check_given_rates c B lo hi w ends.
 
 Notation s := (scaled_system c B).
 
@@ -126,7 +125,7 @@ Theorem rates_sound (mu : R) : between mu lo hi -> one_motion_of_rates B mu.
 Proof.
 case/and3P: checked => ex /nilP no_zero ok W.
 have mu0 : 0 < mu.
-  case/and5P: ok => _ _ _ _ /and5P[p0 q0 _ _ _]; case: W => le_mu _.
+  case/and5P: ok => _ _ _ _ /and4P[p0 q0 _ _]; case: W => le_mu _.
   have q0R : 0 < toR lo.2 :> R by rewrite toR_gt0.
   by rewrite -(pmulr_lgt0 _ q0R); apply: lt_le_trans le_mu; rewrite toR_gt0.
 have is_flat : flat_body B.

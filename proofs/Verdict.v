@@ -11,7 +11,7 @@
 
    Pages: spec/certificates.md, 5.15 to 5.21.  Called by program/main.ml. *)
 
-From Mceip Require Import Base Lists Integers Sums Tree Enclosed Definite Cover Number
+From Mceip Require Import Base Lists Integers Sums Tree Enclosed Definite Signed Cover Number
   Condensation Pencil Whole Claim EnclosedClaim Complete System Signs Support Families Lifted
   ZeroReaction PlainMcp Varying Covers ZeroPencil ZeroEnclosed ZeroComplete Boxes Critical
   CriticalAnchors Presence PresenceAnchors Points Rational Statement Integral Reflection Quadratic
@@ -47,7 +47,7 @@ Inductive evidence :=
   | MembersAbsence of point & point & seq Z & Z & box_anchoring & tree anchored_box_leaf
   | MembersPresence of point & point & seq Z & Z & box_anchoring & seq presence_piece
   (* An interval of friction, the elimination, and a factor at each end. *)
-  | DefiniteRates of point & point & elimination & factor & factor
+  | DefiniteRates of point & point & elimination & signed_ends
   (* An interval of friction, the elimination, and what stands at both ends. *)
   | Stable of point & point & elimination & stability & stable_end & stable_end
   | Points of seq mcp_point
@@ -244,8 +244,8 @@ Definition answer p c (e : evidence) : answered :=
   | GivenMembers B radii, MembersPresence from bound shares unit w pieces =>
       proved_if (check_radii_present c B radii shares unit w pieces from bound)
         (OneForEachFriction from bound)
-  | GivenSystem B _, DefiniteRates lo hi w low high =>
-      proved_if (check_given_rates c B lo hi w low high) (OneMotionOfRates lo hi)
+  | GivenSystem B _, DefiniteRates lo hi w f =>
+      proved_if (check_given_rates c B lo hi w f) (OneMotionOfRates lo hi)
   | GivenSystem B _, Stable lo hi w d low high =>
       proved_if (check_given_stable c B w d lo hi low high) (StableForFriction lo hi)
   | _, _ => scaled_answer p c e
@@ -457,7 +457,7 @@ Qed.
 Lemma integral_sound p e s : integral_answer p e = Proved s -> holds_of p s.
 Proof.
 case: e =>
-  [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ? ?|? ? ? ? ? ?|? ? ? ? ?|
+  [lo hi l|lo hi c|claims c ls|from bound a|from bound w pieces|? ? ? ? ? ?|? ? ? ? ? ?|? ? ? ?|
    ? ? ? ? ? ?|points|? ? ? ?|?|? ?].
 - exact: answer_claims_sound.
 - case: p => [Q|sys u|z u|m] //=; first exact: answer_cover_sound.
@@ -545,7 +545,7 @@ case: p => [Q|Q|q|B u|B radii|rows|B]; rewrite /answer /signed_pencils; try exac
     exact: (equivalent_meaning (reflected_quadratic_equivalent R q)).
   have of_above s' := equivalent_meaning (linearized_equivalent R q) (s := s').
   by move=> /(signed_sound of_above of_below); case: s.
-- case: e => [???|???|???|???|????|??????|??????|lo hi w low high|lo hi w d low high|?|????|?|??];
+- case: e => [???|???|???|???|????|??????|??????|lo hi w ends|lo hi w d low high|?|????|?|??];
     try exact: scaled_sound.
     by rewrite /= /proved_if; case: ifP => // ok [<-] mu; apply: (rates_sound ok).
   by rewrite /= /proved_if; case: ifP => // ok [<-] mu bm _; apply: (stability_sound ok bm).

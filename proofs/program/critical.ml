@@ -447,7 +447,7 @@ let member_tail c radii box =
   let free_factor = Z.divexact c.slip_factor c.free_factor in
   let plain, friction = exact_parts c radii free_factor in
   spend (List.length plain.center_a);
-  let ends e = signed_ends (Kernel.mixed e plain friction) box.region in
+  let ends e = signed_ends (Kernel.mixed e plain friction) box.region.lower box.region.upper in
   match ends box.low with
   | None -> no_witness "tail"
   | Some f ->

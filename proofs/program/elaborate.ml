@@ -275,19 +275,8 @@ let definite_leaf p diagonal region =
   | Some (d, [low, high]) -> Some (Kernel.Definite (d, low, high))
   | _ -> None
 
-(* Factors of the forms at both ends for vectors of any signs (Unique.v). *)
-let signed_factors (p : Kernel.enclosed) lo hi =
-  let factor strict e =
-    let s = Array.init p.size_of (fun i -> Array.init p.size_of (Kernel.signed_part p e i)) in
-    Option.map (fun rows ->
-        { Kernel.weights = List.init p.size_of (fun _ -> Z.one);
-          factor_rows = Array.to_list (Array.map Array.to_list rows) }) (factor_rows strict s) in
-  match factor true lo, factor (Z.sign (snd hi) > 0) hi with
-  | Some low, Some high -> Some (low, high)
-  | _ -> None
-
-(* The same over a region, each end with a scale. *)
-let signed_ends (p : Kernel.enclosed) (region : Kernel.region) =
+(* Factors of the forms at both ends for vectors of any signs (Signed.v). *)
+let signed_ends (p : Kernel.enclosed) lo hi =
   let n = p.size_of in
   let at strict e =
     let form c = Array.init n (fun i -> Array.init n (fun j ->
@@ -295,9 +284,9 @@ let signed_ends (p : Kernel.enclosed) (region : Kernel.region) =
     let make (scale, weights, rows) =
       let weights = Option.value weights ~default:(List.init n (fun _ -> Z.one)) in
       scale, { Kernel.weights; factor_rows = integer_rows rows } in
-    first_accepted make (fun (scale, f) -> Kernel.signed_end_times scale p strict e f)
+    first_accepted make (Kernel.signed_end p strict e)
       (ways_with_scale strict n form) in
-  match at true region.lower, at (Z.sign (snd region.upper) > 0) region.upper with
+  match at true lo, at (Z.sign (snd hi) > 0) hi with
   | Some low, Some high -> Some (low, high)
   | _ -> None
 

@@ -732,8 +732,8 @@ let rates (problem : Scaling.t) (certificate : Certificate.t) =
       | _ -> scale in
     let by row_scale =
       let elimination = { elimination with Kernel.row_scale } in
-      Option.map (fun (low, high) -> Kernel.DefiniteRates (q.lo, q.hi, elimination, low, high))
-        (Elaborate.signed_factors (enclosed_by q elimination) q.lo q.hi) in
+      Option.map (fun ends -> Kernel.DefiniteRates (q.lo, q.hi, elimination, ends))
+        (Elaborate.signed_ends (enclosed_by q elimination) q.lo q.hi) in
     List.find_map by (List.sort_uniq compare (List.map factors certificate.pieces))
   | _ -> None
 

@@ -813,35 +813,28 @@ let signed_part p e i j =
          (sumZ (indices p) (fun k -> Big_int_Z.add_big_int (radius p e i k) (radius p e k i)))
   else Big_int_Z.add_big_int (center p e i j) (center p e j i)
 
-(** val signed_end_times : Big_int_Z.big_int -> enclosed -> bool -> point -> factor -> bool **)
+(** val signed_end : enclosed -> bool -> point -> (Big_int_Z.big_int * factor) -> bool **)
 
-let signed_end_times c p strict e f =
+let signed_end p strict e = function
+| (c, f) ->
   (&&) (Z.ltb Big_int_Z.zero_big_int c)
     ((&&) (all (fun w -> Z.leb Big_int_Z.zero_big_int w) f.weights)
       ((&&) (eq_op nat_eqType (Obj.magic size f.factor_rows) (Obj.magic p.size_of))
         (covered (fun i j -> Big_int_Z.mult_big_int c (signed_part p e i j))
           (weighted_dot f.weights) strict (zip (indices p) f.factor_rows))))
 
-(** val signed_end : enclosed -> bool -> point -> factor -> bool **)
+type signed_ends = (Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)
 
-let signed_end =
-  signed_end_times Big_int_Z.unit_big_int
+(** val signed_between : enclosed -> point -> point -> signed_ends -> bool **)
 
-(** val signed_between :
-    enclosed -> region -> ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool **)
+let signed_between p lo hi f =
+  (&&) (signed_end p true lo (fst f))
+    (signed_end p (Z.ltb Big_int_Z.zero_big_int (snd hi)) hi (snd f))
 
-let signed_between p r f =
-  (&&) (signed_end_times (fst (fst f)) p true r.lower (snd (fst f)))
-    (signed_end_times (fst (snd f)) p (Z.ltb Big_int_Z.zero_big_int (snd r.upper)) r.upper
-      (snd (snd f)))
-
-(** val box_signed :
-    enclosed -> enclosed -> region ->
-    ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) ->
-    ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool **)
+(** val box_signed : enclosed -> enclosed -> region -> signed_ends -> signed_ends -> bool **)
 
 let box_signed p p' r f f' =
-  (&&) (signed_between p r f) (signed_between p' r f')
+  (&&) (signed_between p r.lower r.upper f) (signed_between p' r.lower r.upper f')
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
              width : Big_int_Z.big_int }
@@ -4597,9 +4590,7 @@ type critical_leaf =
 | BoxDefinite of Big_int_Z.big_int list * (factor * factor) * (factor * factor)
 | BoxRegular of regular
 | BoxWhole of whole * whole
-| BoxSigned of Big_int_Z.big_int
-   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
-   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
+| BoxSigned of Big_int_Z.big_int * signed_ends * signed_ends
 | BoxHalves
 
 (** val check_parts :
@@ -5989,10 +5980,10 @@ let check_equilibrium b mu amounts states0 m w =
             (map0 (fun row -> scaled_row m row) ineqs) w))))
 
 (** val check_rates :
-    system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> factor ->
-    factor -> bool **)
+    system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> signed_ends ->
+    bool **)
 
-let check_rates s lo hi w low high =
+let check_rates s lo hi w f =
   let q = pencil_of s Mu in
   let d = blocks_of q in
   let p = condensed d w in
@@ -6002,17 +5993,15 @@ let check_rates s lo hi w low high =
         ((&&) (check_elimination d w)
           ((&&) (Z.ltb Big_int_Z.zero_big_int (fst lo))
             ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
-              ((&&) (ordered lo hi)
-                ((&&) (signed_end p true lo low)
-                  (signed_end p (Z.ltb Big_int_Z.zero_big_int (snd hi)) hi high))))))))
+              ((&&) (ordered lo hi) (signed_between p lo hi f)))))))
 
 (** val check_given_rates :
     scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point ->
-    elimination -> factor -> factor -> bool **)
+    elimination -> signed_ends -> bool **)
 
-let check_given_rates c b lo hi w low high =
+let check_given_rates c b lo hi w f =
   (&&) (exact_system c b)
-    ((&&) (nilp (with_zero b)) (check_rates (scaled_system c b) lo hi w low high))
+    ((&&) (nilp (with_zero b)) (check_rates (scaled_system c b) lo hi w f))
 
 type stable_end = { end_form : matrix; end_slope : Big_int_Z.big_int list;
                     end_unit : Big_int_Z.big_int; end_times : Big_int_Z.big_int;
@@ -6383,7 +6372,7 @@ type evidence =
    * anchored_box_leaf tree
 | MembersPresence of point * point * Big_int_Z.big_int list * Big_int_Z.big_int * box_anchoring
    * presence_piece list
-| DefiniteRates of point * point * elimination * factor * factor
+| DefiniteRates of point * point * elimination * signed_ends
 | Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
@@ -6629,8 +6618,8 @@ let answer p c e =
     (match p with
      | GivenSystem (b, _) ->
        (match e with
-        | DefiniteRates (lo, hi, w, low, high) ->
-          proved_if (check_given_rates c b lo hi w low high) (OneMotionOfRates (lo, hi))
+        | DefiniteRates (lo, hi, w, f) ->
+          proved_if (check_given_rates c b lo hi w f) (OneMotionOfRates (lo, hi))
         | Stable (lo, hi, w, d, low, high) ->
           proved_if (check_given_stable c b w d lo hi low high) (StableForFriction (lo, hi))
         | _ -> scaled_answer p c e)

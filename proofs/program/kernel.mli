@@ -320,17 +320,13 @@ val box_definite :
 
 val signed_part : enclosed -> point -> int -> int -> Big_int_Z.big_int
 
-val signed_end_times : Big_int_Z.big_int -> enclosed -> bool -> point -> factor -> bool
+val signed_end : enclosed -> bool -> point -> (Big_int_Z.big_int * factor) -> bool
 
-val signed_end : enclosed -> bool -> point -> factor -> bool
+type signed_ends = (Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)
 
-val signed_between :
-  enclosed -> region -> ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool
+val signed_between : enclosed -> point -> point -> signed_ends -> bool
 
-val box_signed :
-  enclosed -> enclosed -> region ->
-  ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) ->
-  ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor)) -> bool
+val box_signed : enclosed -> enclosed -> region -> signed_ends -> signed_ends -> bool
 
 type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int_Z.big_int;
              width : Big_int_Z.big_int }
@@ -1563,9 +1559,7 @@ type critical_leaf =
 | BoxDefinite of Big_int_Z.big_int list * (factor * factor) * (factor * factor)
 | BoxRegular of regular
 | BoxWhole of whole * whole
-| BoxSigned of Big_int_Z.big_int
-   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
-   * ((Big_int_Z.big_int * factor) * (Big_int_Z.big_int * factor))
+| BoxSigned of Big_int_Z.big_int * signed_ends * signed_ends
 | BoxHalves
 
 val check_parts : enclosed -> enclosed -> region -> point -> point -> critical_leaf -> bool
@@ -2034,12 +2028,12 @@ val check_equilibrium :
   equilibrium_evidence -> bool
 
 val check_rates :
-  system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> factor -> factor
-  -> bool
+  system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination -> signed_ends ->
+  bool
 
 val check_given_rates :
   scales -> rational_system -> (Big_int_Z.big_int * Big_int_Z.big_int) -> point -> elimination
-  -> factor -> factor -> bool
+  -> signed_ends -> bool
 
 type stable_end = { end_form : matrix; end_slope : Big_int_Z.big_int list;
                     end_unit : Big_int_Z.big_int; end_times : Big_int_Z.big_int;
@@ -2152,7 +2146,7 @@ type evidence =
    * anchored_box_leaf tree
 | MembersPresence of point * point * Big_int_Z.big_int list * Big_int_Z.big_int * box_anchoring
    * presence_piece list
-| DefiniteRates of point * point * elimination * factor * factor
+| DefiniteRates of point * point * elimination * signed_ends
 | Stable of point * point * elimination * stability * stable_end * stable_end
 | Points of mcp_point list
 | Equilibrium of rational0 * rational0 list * stated list * equilibrium_evidence
