@@ -79,12 +79,11 @@ let corners_of (plain, friction) (region : Kernel.region) box =
     [corner region.lower; corner region.upper] in
   at_friction box.low @ at_friction box.high
 
-(* The mean of matrices of doubles. *)
 let mean_of matrices =
-  let share = 1.0 /. float_of_int (List.length matrices) in
-  let add = Array.map2 (Array.map2 (+.)) in
+  let share = Q.make Z.one (Z.of_int (List.length matrices)) in
+  let add = Array.map2 (Array.map2 Q.add) in
   let sum = List.fold_left add (List.hd matrices) (List.tl matrices) in
-  Array.map (Array.map (fun v -> share *. v)) sum
+  Array.map (Array.map (Q.mul share)) sum
 
 (* For each row the room that a corner leaves for the widths, if these are the weights of [w], and
    the residual that has to fit in. *)
@@ -106,15 +105,16 @@ let weights_of weights right =
       | Uniform -> Z.one
       | By_vector -> Z.max Z.one (Z.abs v)) (List.tl right)
 
-(* The widths that the corners allow: a little more than the least multiple of the weights. *)
-let with_widths m corners (w : Kernel.regular) =
+(* The widths that the corners allow: the least multiple of the weights, and one part in 2^bits
+   more. *)
+let with_widths bits m corners (w : Kernel.regular) =
   let rooms = List.concat_map (fun (n, matrices) ->
       room_at m w matrices (List.nth w.regular_units n)) corners in
   if List.exists (fun (gap, _) -> Z.sign gap <= 0) rooms then None
   else
     let ratios = List.map (fun (gap, residual) -> Q.make residual gap) rooms in
     let least = List.fold_left larger Q.zero ratios in
-    let wider = Q.mul least (Q.make (Z.succ (two_to 30)) (two_to 30)) in
+    let wider = Q.mul least (Q.make (Z.succ (two_to bits)) (two_to bits)) in
     let width weight =
       let exact = Q.mul wider (Q.of_bigint weight) in
       Z.succ (Z.fdiv (Q.num exact) (Q.den exact)) in
@@ -141,48 +141,73 @@ let places_of parts k region box =
     Some { order; units; corners = List.mapi matrices corners }
   end
 
-(* The matrix of a corner in doubles. *)
-let doubles_at places (n, (center, _)) =
+(* The matrix of a corner. *)
+let matrix_at places (n, (center, _)) =
   let times = List.nth places.units n in
-  let value z = Q.to_float (Q.make z times) in
-  Array.of_list (List.map (fun row -> Array.of_list (List.map value row)) center)
+  let entry z = Q.make z times in
+  Array.of_list (List.map (fun row -> Array.of_list (List.map entry row)) center)
 
-(* The witness for some corners by the inverse and the null vectors of s, over the order. *)
-let regular_by places weights corners s =
+(* How exactly a witness is computed: from an inverse in doubles, or with [more] bits beyond these,
+   where the margin is too narrow for that. *)
+type exactness = Doubles | Beyond_doubles
+
+let scaled bits v = if bits < 0 then Q.div_2exp v (- bits) else Q.mul_2exp v bits
+let rounded bits v = let v = scaled bits v in Z.fdiv (Q.num v) (Q.den v)
+
+(* y (2 - s y), rounded: an inverse with twice as many digits (Newton). *)
+let newton_step bits s y =
+  let m = Array.length s in
+  let product a b = Array.init m (fun i -> Array.init m (fun j ->
+      List.fold_left Q.add Q.zero (List.init m (fun l -> Q.mul a.(i).(l) b.(l).(j))))) in
+  let next v w = scaled (- bits) (Q.of_bigint (rounded bits (Q.sub (Q.add v v) w))) in
+  Array.map2 (Array.map2 next) y (product y (product s y))
+
+(* Two steps of Newton make of the 50 bits of an inverse in doubles about 200. *)
+let more = function Doubles -> 0 | Beyond_doubles -> 150
+
+(* The witness for some corners by the inverse and the null vectors of s, over the order; a function
+   of the weights of its widths. *)
+let regular_by exactness places corners s =
   let m = List.length places.order - 1 in
   let block = Array.map (fun row -> Array.sub row 1 m) (Array.sub s 1 m) in
-  let rounded = if m = 0 then Some ([||], precision) else rounded_inverse block in
-  let exact = if m = 0 then Some [||] else inverse block in
-  match rounded, exact with
-  | Some (y, exponent), Some x ->
-    let shift = max 0 (- exponent) in
-    let row_of row = Array.to_list (Array.map (fun z -> Z.shift_left z shift) row) in
-    let dot f = Array.fold_left (+.) 0.0 (Array.init m f) in
-    let scaled f = two_to 52 :: List.init m (fun a -> round_scaled (-. dot (f a)) 52) in
-    let right = scaled (fun a b -> x.(a).(b) *. s.(b + 1).(0)) in
+  let more = more exactness in
+  let with_inverse (y, exponent) =
+    let in_doubles = Array.map (Array.map (fun z -> scaled (- exponent) (Q.of_bigint z))) y in
+    let step = newton_step (exponent + more) block in
+    let x = match exactness with
+      | Doubles -> in_doubles
+      | Beyond_doubles -> step (step in_doubles) in
+    let unit = max 0 (exponent + more) in
+    let row_of row = Array.to_list (Array.map (rounded unit) row) in
+    let sum f = List.fold_left Q.add Q.zero (List.init m f) in
+    let null f =
+      two_to (52 + more) :: List.init m (fun a -> rounded (52 + more) (Q.neg (sum (f a)))) in
+    let left = null (fun a b -> Q.mul s.(0).(b + 1) x.(b).(a)) in
+    let right = null (fun a b -> Q.mul x.(a).(b) s.(b + 1).(0)) in
+    let along = Kernel.combine_rows left (fst (snd (List.hd corners))) in
     let w =
       { Kernel.regular_pivot = List.hd places.order;
-        regular_inverse = List.map row_of (Array.to_list y);
-        regular_units = List.map (fun z -> Z.shift_left z (exponent + shift)) places.units;
-        regular_left = scaled (fun a b -> s.(0).(b + 1) *. x.(b).(a)); regular_right = right;
-        regular_widths = weights_of weights right; regular_minus = false } in
-    let with_sign (w : Kernel.regular) =
-      let center = fst (snd (List.hd corners)) in
-      let along = Kernel.combine_rows w.regular_left center in
-      { w with regular_minus = Z.sign (Kernel.against_right m w along) < 0 } in
-    Option.map with_sign (with_widths m corners w)
-  | _ -> None
+        regular_inverse = List.map row_of (Array.to_list x);
+        regular_units = List.map (fun z -> Z.shift_left z unit) places.units;
+        regular_left = left; regular_right = right; regular_widths = []; regular_minus = false } in
+    let w = { w with regular_minus = Z.sign (Kernel.against_right m w along) < 0 } in
+    fun weights ->
+      with_widths (30 + more) m corners { w with regular_widths = weights_of weights right } in
+  let rounded =
+    if m = 0 then Some ([||], precision)
+    else rounded_inverse (Array.map (Array.map Q.to_float) block) in
+  Option.map with_inverse rounded
 
 (* A regular leaf of a decided box; k is a moving variable. *)
 let regular_box parts k (region : Kernel.region) box =
   match places_of parts k region box with
   | None -> None
   | Some places ->
-    let each = List.map (doubles_at places) places.corners in
+    let each = List.map (matrix_at places) places.corners in
     let mixed e = Kernel.mixed e (fst parts) (snd parts) in
     let low = mixed box.low and high = mixed box.high in
     List.find_map (fun s ->
-        match regular_by places Uniform places.corners s with
+        match Option.bind (regular_by Doubles places places.corners s) (fun by -> by Uniform) with
         | Some w when Kernel.box_regular low high region w -> Some (Kernel.BoxRegular w)
         | _ -> None) (mean_of each :: each)
 

@@ -12,11 +12,20 @@ open Critical
 let anchors_of_pieces pieces =
   List.sort_uniq compare (List.map (fun piece -> piece.piece_anchor) pieces)
 
-(* All witnesses for some of the corners. *)
-let candidates places numbers =
+(* The number of variables up to which witnesses beyond doubles are tried: their products of
+   fractions take long for more. *)
+let most_beyond_doubles = 12
+
+(* The first witness for some of the corners that holds. *)
+let witness_that holds places numbers =
   let corners = List.filter (fun (n, _) -> List.mem n numbers) places.corners in
-  let s = mean_of (List.map (doubles_at places) corners) in
-  List.filter_map (fun weights -> regular_by places weights corners s) [By_vector; Uniform]
+  let s = mean_of (List.map (matrix_at places) corners) in
+  let holding exactness =
+    Option.bind (regular_by exactness places corners s) (fun by ->
+        List.find_opt holds (List.filter_map by [By_vector; Uniform])) in
+  match holding Doubles with
+  | None when List.length places.order <= most_beyond_doubles -> holding Beyond_doubles
+  | found -> found
 
 (* Row k of T(u, mu) at the x with x_k = 1 whose other rows vanish; in doubles. *)
 let pivot_row (plain, friction) order mu =
@@ -127,7 +136,7 @@ let attempt c v n k box =
       Kernel.mixed box.low plain friction, Kernel.mixed box.high plain friction in
     let witness parts corners holds =
       Option.bind (places_of parts k unit box) (fun places ->
-          List.find_opt holds (candidates places corners)) in
+          witness_that holds places corners) in
     let low, high = ends parts in
     let inside w = Kernel.positive_vector w && Kernel.presence_inside low high unit k w in
     match witness parts [0; 1; 2; 3] inside with
