@@ -192,22 +192,22 @@ Definition unit_y := lo.2 * hi.2 * q.
 Definition reach := Z.max (Z.abs offset) (Z.abs (offset + extent)).
 
 (* F >= (s_n / s_d) I *)
-Definition bound_n :=
+Definition lower_n :=
   q * (bound_at low_a * bound_times low_b * lo.2 + lo.1 * bound_at low_b * bound_times low_a).
-Definition bound_d := bound_times low_a * bound_times low_b * lo.2.
+Definition lower_d := bound_times low_a * bound_times low_b * lo.2.
 
 Definition proper_interval :=
-  [&& 0 <=? lo.1, 0 <? lo.2, 0 <? hi.2, 0 <? interval_width & 0 <? bound_n].
+  [&& 0 <=? lo.1, 0 <? lo.2, 0 <? hi.2, 0 <? interval_width & 0 <? lower_n].
 
 (* Bounds nl, nr, dl, dr: numerator and denominator. *)
 Definition remainder_radius power (nl nr : Z * Z) :=
-  divide_up (power * nl.1 * nr.1 * bound_d) (nl.2 * nr.2 * bound_n).
+  divide_up (power * nl.1 * nr.1 * lower_d) (nl.2 * nr.2 * lower_n).
 
 Definition remainder_slope power (nl nr dl dr : Z * Z) :=
-  divide_up (power * extent * dl.1 * nr.1 * bound_d) (unit_y * dl.2 * nr.2 * bound_n) +
-  divide_up (power * extent * nl.1 * dr.1 * bound_d) (unit_y * nl.2 * dr.2 * bound_n) +
-  divide_up (power * extent * nl.1 * nr.1 * drift fam * bound_d * bound_d)
-            (unit_y * nl.2 * nr.2 * bound_n * bound_n).
+  divide_up (power * extent * dl.1 * nr.1 * lower_d) (unit_y * dl.2 * nr.2 * lower_n) +
+  divide_up (power * extent * nl.1 * dr.1 * lower_d) (unit_y * nl.2 * dr.2 * lower_n) +
+  divide_up (power * extent * nl.1 * nr.1 * drift fam * lower_d * lower_d)
+            (unit_y * nl.2 * nr.2 * lower_n * lower_n).
 
 (* e bounds how far a member is from Z. *)
 Definition entry_of slopes (z : polynomial) nl nr dl dr (e : Z * Z) : local_entry :=

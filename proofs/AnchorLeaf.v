@@ -117,8 +117,8 @@ Notation off := (offset a lo hi).
 Notation ext := (extent a lo hi).
 Notation uy := (unit_y a lo hi).
 Notation width := (interval_width lo hi).
-Notation bn := (bound_n a low_a low_b lo).
-Notation bd := (bound_d low_a low_b lo).
+Notation bn := (lower_n a low_a low_b lo).
+Notation bd := (lower_d low_a low_b lo).
 
 Lemma proper_parts :
   [/\ 0 <= toR lo.1 :> R, 0 < toR lo.2 :> R, 0 < toR hi.2 :> R, 0 < toR width :> R &
@@ -188,7 +188,7 @@ Proof.
 have [l1 l2 _ _ _] := proper_parts; have [_ _ [ca _ _] [cb _ _]] := bounded.
 have lo0 : 0 <= toR lo.1 / toR lo.2 :> R by rewrite divr_ge0 // ltW.
 have := F_below bounded q_gt0 (t_ofE u) lo0 lo_le_t.
-congr (bounded_below _ _ _); rewrite /s_low /bound_n /bound_d !toRM !toRD !toRM.
+congr (bounded_below _ _ _); rewrite /s_low /lower_n /lower_d !toRM !toRD !toRM.
 have [/lt0r_neq0 l2' /lt0r_neq0 ca' /lt0r_neq0 cb'] := And3 l2 ca cb.
 by field; rewrite l2' ca' cb'.
 Qed.
@@ -589,8 +589,8 @@ Notation off := (offset a lo hi).
 Notation ext := (extent a lo hi).
 Notation uy := (unit_y a lo hi).
 Notation width := (interval_width lo hi).
-Notation bn := (bound_n a low_a low_b lo).
-Notation bd := (bound_d low_a low_b lo).
+Notation bn := (lower_n a low_a low_b lo).
+Notation bd := (lower_d low_a low_b lo).
 Notation d_of := (d_of a lo hi).
 Notation t_of := (t_of lo hi).
 Notation u_of := (u_of lo hi).

@@ -22,7 +22,7 @@ Definition mixed (e : point) (P P' : enclosed) : enclosed := Enclosed (size_of P
 (* Enclosures of two parts enclose their combinations. *)
 Lemma entry_mixed e M M' i j :
   entry (mixed_matrix e M M') i j = (e.2 * entry M i j + e.1 * entry M' i j)%Z.
-Proof. by rewrite /mixed_matrix entry_add !entry_scale. Qed.
+Proof. by rewrite /mixed_matrix entry_add !scale_entry. Qed.
 
 Lemma mixed_encloses (R : realFieldType) e P P' (A B A' B' : nat -> nat -> R) :
   encloses P A B -> encloses P' A' B' -> size_of P' = size_of P ->

@@ -69,12 +69,12 @@ Definition divide_up x d := - ((- x) / d).
 Variables (D : blocks) (w : elimination).
 
 (* c F - d I is covered by m L L'. *)
-Definition stiffness_bound :=
+Definition eliminated_bound :=
   FormBound (bound_c w) (bound_d w) (factor_scale w) (stiffness_factor w).
 
 Definition stiffness_positive :=
   [&& 0 <? bound_d w, all (fun row => all (fun entry => entry.1 < free_count D)%N row) (ff D) &
-      bounded_rows (free_count D) (ff D) stiffness_bound].
+      bounded_rows (free_count D) (ff D) eliminated_bound].
 
 (* u G_j - F X_j for a column j *)
 Definition residual_column (G X : matrix) j :=
@@ -193,11 +193,11 @@ Hypotheses (positive : stiffness_positive D w) (shaped : shapes D w).
 Lemma unit_gt0 : 0 < u.
 Proof. by case/and3P: shaped => ? _ _; rewrite toR_gt0. Qed.
 
-Lemma bounded : bounded_rows (free_count D) (ff D) (stiffness_bound w).
+Lemma rows_bounded : bounded_rows (free_count D) (ff D) (eliminated_bound w).
 Proof. by case/and3P: positive. Qed.
 
 Lemma c_gt0 : 0 < toR (bound_c w) :> R.
-Proof. exact: (bound_times_gt0 R bounded). Qed.
+Proof. exact: (bound_times_gt0 R rows_bounded). Qed.
 
 Lemma d_gt0 : 0 < toR (bound_d w) :> R.
 Proof. by case/and3P: positive => ? *; rewrite toR_gt0. Qed.
@@ -206,7 +206,7 @@ Lemma scale_gt0 i : i \in slip_ix -> 0 < scale_of i.
 Proof. by case/and3P: shaped => _ /allP H _ /H; rewrite /scale_of toR_gt0. Qed.
 
 Lemma size_ff : size (ff D) = free_count D.
-Proof. exact: size_bounded bounded. Qed.
+Proof. exact: size_bounded rows_bounded. Qed.
 
 Lemma columns_ff i : all (fun e => e.1 < free_count D)%N (nth [::] (ff D) i).
 Proof.
@@ -217,7 +217,7 @@ Qed.
 
 Lemma lookup_sym i k : (i < free_count D)%N -> (k < free_count D)%N ->
   lookup (nth [::] (ff D) i) k = lookup (nth [::] (ff D) k) i.
-Proof. exact: bounded_lookup_sym bounded i k. Qed.
+Proof. exact: bounded_lookup_sym rows_bounded i k. Qed.
 
 Lemma F_sym i k : i \in free_ix -> k \in free_ix -> F i k = F k i.
 Proof. by rewrite !mem_iota !add0n /= => Hi Hk; rewrite /F lookup_sym. Qed.
@@ -226,7 +226,7 @@ Proof. by rewrite !mem_iota !add0n /= => Hi Hk; rewrite /F lookup_sym. Qed.
 Lemma F_bounded (z : nat -> R) :
   toR (bound_d w) * (\sum_(k <- free_ix) z k ^+ 2) <=
   toR (bound_c w) * (\sum_(i <- free_ix) \sum_(k <- free_ix) z i * F i k * z k).
-Proof. exact: bounded_rows_sound bounded z. Qed.
+Proof. exact: bounded_rows_sound rows_bounded z. Qed.
 
 Notation s := (toR (bound_d w) / toR (bound_c w) : R).
 

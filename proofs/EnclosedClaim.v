@@ -546,7 +546,7 @@ Qed.
 End Between.
 
 
-Lemma weights t : between t (box_from c) (box_to c) ->
+Lemma combined t : between t (box_from c) (box_to c) ->
   exists a b, combination A B t (box_from c) (box_to c) a b.
 Proof.
 have [[_ _ o _] _] := enclosed_parts => bt.
@@ -556,7 +556,7 @@ Qed.
 (* T(t) is regular on K, and the vector with x_k = V_k whose rows K vanish is near V. *)
 Lemma regular_on_K t : between t (box_from c) (box_to c) -> injective_on K (T t).
 Proof.
-move=> /weights[a [b comb]] z rows i iK; apply/eqP; rewrite -normr_le0 -(mul0r (eps i)).
+move=> /combined[a [b comb]] z rows i iK; apply/eqP; rewrite -normr_le0 -(mul0r (eps i)).
 apply: (difference_bound comb (lexx 0)) => // l lK.
 by rewrite rows // mul0r.
 Qed.
@@ -570,7 +570,7 @@ Definition on_active (x : nat -> R) j := if j \in J then x j else 0.
 Lemma near_center t x : between t (box_from c) (box_to c) -> x k = V k ->
   (forall l, l \in K -> row A B J t x l = 0) -> near (on_active x).
 Proof.
-move=> /weights[a [b comb]] xk rows; split=> [|j Hj]; first by rewrite /on_active pivot_active.
+move=> /combined[a [b comb]] xk rows; split=> [|j Hj]; first by rewrite /on_active pivot_active.
 rewrite /on_active; have [jJ|jJ] := boolP (j \in J); last first.
   by rewrite center_elsewhere // subr0 normr0 width_ge0.
 have [->|jk] := eqVneq j k; first by rewrite xk subrr normr0 width_ge0.
@@ -859,7 +859,7 @@ Theorem enclosed_claim_sound : exists (t : R) x,
 Proof.
 have [[wf _ o to2] [[ks sup _ _] [_ _ signs]]] := enclosed_parts.
 have [t [x [bt near_x rows]]] := null_vector_near.
-have [p q p' q'] := ordered_ge0 R o; have [a [b comb]] := weights bt.
+have [p q p' q'] := ordered_ge0 R o; have [a [b comb]] := combined bt.
 case/and3P: signs => vk /allP on /allP off.
 have xE j : j \in J -> on_active x j = x j by rewrite /on_active => ->.
 

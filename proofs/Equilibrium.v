@@ -326,7 +326,7 @@ Notation r := (reaction_of B amounts w).
 Lemma pressure_at p : at_w (pressure_row B amounts p) = - normal_to p r.
 Proof. by rewrite rational_negated (normal_at _ reaction_at). Qed.
 
-Lemma bound_at p : at_w (bound_row B mu amounts p) =
+Lemma bound_row_at p : at_w (bound_row B mu amounts p) =
   fraction R mu * fraction R (factor_of p) * - normal_to p r.
 Proof. by rewrite /bound_row 2!rational_scaled pressure_at mulrA. Qed.
 
@@ -352,13 +352,13 @@ case: s sign_s zero pos => [|place|sign|] sign_s zero pos.
   have := pos _ (mem_head _ _); rewrite pressure_at => pressed.
   have := pos (bound_row B mu amounts (particle_of c) ++
                negated (tangential_row (particle_of c) (reaction_row B amounts))).
-  rewrite !inE eqxx orbT rational_cat rational_negated bound_at tangential_r => /(_ isT) right.
-  have := pos _ (mem_last _ _); rewrite rational_cat bound_at tangential_r => left.
+  rewrite !inE eqxx orbT rational_cat rational_negated bound_row_at tangential_r => /(_ isT) right.
+  have := pos _ (mem_last _ _); rewrite rational_cat bound_row_at tangential_r => left.
   split=> //; rewrite ltr_norml -subr_gt0 opprK addrC left /=.
   by rewrite -subr_gt0.
 - have := zero _ (mem_head _ _); rewrite touching_at => /eqP; rewrite subr_eq0 => /eqP touching.
   have := zero _ (mem_last _ _); rewrite rational_cat rational_negated rational_scaled.
-  rewrite bound_at tangential_r => /eqP; rewrite subr_eq0 => /eqP on_cone.
+  rewrite bound_row_at tangential_r => /eqP; rewrite subr_eq0 => /eqP on_cone.
   have := pos _ (mem_head _ _); rewrite pressure_at => pressed.
   have bound0 := mulr_gt0 (mulr_gt0 mu0 factor0) pressed.
   have signE : fraction R (sign, 1)%Z = toR sign by rewrite /fraction /= toR1 divr1.

@@ -50,9 +50,6 @@ Extract Inlined Constant mult => "Natural.mul".
 Extract Inlined Constant ssrnat.eqn => "(fun (a : int) (b : int) -> a = b)".
 Extract Inlined Constant Nat.eqb => "(fun (a : int) (b : int) -> a = b)".
 
-(* Varying.v has a field with this name. *)
-Extraction Inline Condensation.stiffness_bound.
-
 Set Extraction AccessOpaque.
 (* Lines of about the length of the other files. *)
 Set Printing Width 96.

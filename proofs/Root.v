@@ -37,7 +37,7 @@ Record box := Box { inverse : matrix; unit_low : Z; unit_high : Z; width : Z }.
 
 (* Y, u at both ends, and the weight w. *)
 Record uniqueness := Uniqueness {
-  system_inverse : matrix; system_unit_low : Z; system_unit_high : Z; rate : Z }.
+  system_inverse : matrix; system_unit_low : Z; system_unit_high : Z; system_rate : Z }.
 
 Section Checker.
 
@@ -91,10 +91,10 @@ Definition unique_row Y u w eps e i :=
                    system_radius Y w eps e i j) <? u.
 
 Definition unique_end c u eps e :=
-  (0 <? u) && all (unique_row (system_inverse c) u (rate c) eps e) J.
+  (0 <? u) && all (unique_row (system_inverse c) u (system_rate c) eps e) J.
 
 Definition check_unique c eps lo hi :=
-  [&& 0 <? rate c, 0 <=? eps, unique_end c (system_unit_low c) eps lo &
+  [&& 0 <? system_rate c, 0 <=? eps, unique_end c (system_unit_low c) eps lo &
       unique_end c (system_unit_high c) eps hi].
 
 End Checker.
@@ -323,7 +323,7 @@ Hypotheses (lo1 : 0 <= toR lo.1 :> R) (lo2 : 0 <= toR lo.2 :> R).
 Hypotheses (hi1 : 0 <= toR hi.1 :> R) (hi2 : 0 <= toR hi.2 :> R).
 
 Notation Y := (system_inverse c).
-Notation w := (rate c).
+Notation w := (system_rate c).
 
 Theorem unique_sound t t' a b x x' :
   combination t lo hi a b -> a * toR lo.2 + b * toR hi.2 = 1 ->

@@ -128,7 +128,7 @@ Qed.
 Lemma poly_of_add X Y i j : poly_of (add_series X Y) i j = add_poly (poly_of X i j) (poly_of Y i j).
 Proof. by elim: X Y => [|A X IH] [|B Y] //=; rewrite entry_add IH. Qed.
 
-Lemma entry_scale c (M : matrix) i j :
+Lemma scale_entry c (M : matrix) i j :
   entry [seq scale_poly c row | row <- M] i j = (c * entry M i j)%Z.
 Proof.
 rewrite /entry; have [l|l] := ltnP i (size M); first by rewrite (nth_map [::]) ?nth_scale_poly.
@@ -136,7 +136,7 @@ by rewrite !nth_default ?size_map // Z.mul_0_r.
 Qed.
 
 Lemma poly_of_scale c L i j : poly_of (scale_series c L) i j = scale_poly c (poly_of L i j).
-Proof. by elim: L => //= M L IH; rewrite entry_scale IH. Qed.
+Proof. by elim: L => //= M L IH; rewrite scale_entry IH. Qed.
 
 Lemma nth_column (X : matrix) j k : nth 0%Z (column_of X j) k = entry X k j.
 Proof.

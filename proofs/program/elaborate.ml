@@ -383,7 +383,7 @@ let unique_of (p : Kernel.enclosed) f j_list k v eps (e1, e2) t =
         let unit_at e =
           if Z.sign (snd e) > 0 then Z.mul (two_to (w + exponent)) (snd e) else Z.one in
         let u = { Kernel.system_inverse = table p.size_of j j y; system_unit_low = unit_at e1;
-                  system_unit_high = unit_at e2; rate = two_to w } in
+                  system_unit_high = unit_at e2; system_rate = two_to w } in
         if Kernel.check_unique p j_list k v u eps e1 e2 then Some u else None in
   let rec search = function
     | [] -> None

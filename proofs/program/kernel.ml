@@ -840,7 +840,7 @@ type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int
              width : Big_int_Z.big_int }
 
 type uniqueness = { system_inverse : matrix; system_unit_low : Big_int_Z.big_int;
-                    system_unit_high : Big_int_Z.big_int; rate : Big_int_Z.big_int }
+                    system_unit_high : Big_int_Z.big_int; system_rate : Big_int_Z.big_int }
 
 (** val unit_entry : Big_int_Z.big_int -> int -> int -> Big_int_Z.big_int **)
 
@@ -985,14 +985,14 @@ let unique_row p j k v y u w eps e i =
 
 let unique_end p j k v c u eps e =
   (&&) (Z.ltb Big_int_Z.zero_big_int u)
-    (all (unique_row p j k v c.system_inverse u c.rate eps e) j)
+    (all (unique_row p j k v c.system_inverse u c.system_rate eps e) j)
 
 (** val check_unique :
     enclosed -> int list -> int -> Big_int_Z.big_int list -> uniqueness -> Big_int_Z.big_int ->
     (Big_int_Z.big_int * Big_int_Z.big_int) -> (Big_int_Z.big_int * Big_int_Z.big_int) -> bool **)
 
 let check_unique p j k v c eps lo hi =
-  (&&) (Z.ltb Big_int_Z.zero_big_int c.rate)
+  (&&) (Z.ltb Big_int_Z.zero_big_int c.system_rate)
     ((&&) (Z.leb Big_int_Z.zero_big_int eps)
       ((&&) (unique_end p j k v c c.system_unit_low eps lo)
         (unique_end p j k v c c.system_unit_high eps hi)))
@@ -1538,15 +1538,19 @@ let row_of m i =
 let divide_up x d =
   Big_int_Z.minus_big_int (Z.div (Big_int_Z.minus_big_int x) d)
 
+(** val eliminated_bound : elimination -> form_bound **)
+
+let eliminated_bound w =
+  { bound_times = w.bound_c; bound_at = w.bound_d; gram_times = w.factor_scale; gram_rows =
+    w.stiffness_factor }
+
 (** val stiffness_positive : blocks -> elimination -> bool **)
 
 let stiffness_positive d w =
   (&&) (Z.ltb Big_int_Z.zero_big_int w.bound_d)
     ((&&)
       (all (fun row -> all (fun entry0 -> leq (Natural.succ (fst entry0)) d.free_count) row)
-        d.ff)
-      (bounded_rows (Obj.magic d.free_count) d.ff { bound_times = w.bound_c; bound_at =
-        w.bound_d; gram_times = w.factor_scale; gram_rows = w.stiffness_factor }))
+        d.ff) (bounded_rows (Obj.magic d.free_count) d.ff (eliminated_bound w)))
 
 (** val residual_column :
     blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
@@ -2042,27 +2046,27 @@ let margin g p =
     enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int -> Big_int_Z.big_int
     -> bool **)
 
-let dominated c p g residual0 rate0 =
+let dominated c p g residual0 rate =
   (&&) (Z.ltb Big_int_Z.zero_big_int (margin g p))
     ((&&)
       (Z.leb (Big_int_Z.abs_big_int residual0)
         (Big_int_Z.mult_big_int (margin g p) c.box_width))
-      (Z.leb rate0 (Big_int_Z.mult_big_int (margin g p) c.rate_width)))
+      (Z.leb rate (Big_int_Z.mult_big_int (margin g p) c.rate_width)))
 
 (** val dominated_at :
     enclosed_claim -> point -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
-let dominated_at c e p ga gb ra rb rate0 =
-  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Big_int_Z.mult_big_int (snd e) rate0)
+let dominated_at c e p ga gb ra rb rate =
+  dominated c p (row_at_end e ga gb) (at_end e ra rb) (Big_int_Z.mult_big_int (snd e) rate)
 
 (** val dominated_ends :
     enclosed_claim -> int -> Big_int_Z.big_int list -> Big_int_Z.big_int list ->
     Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int -> bool **)
 
-let dominated_ends c p ga gb ra rb rate0 =
-  (&&) (dominated_at c c.box_from p ga gb ra rb rate0)
-    (dominated_at c c.box_to p ga gb ra rb rate0)
+let dominated_ends c p ga gb ra rb rate =
+  (&&) (dominated_at c c.box_from p ga gb ra rb rate)
+    (dominated_at c c.box_to p ga gb ra rb rate)
 
 (** val regular_row :
     pencil -> enclosed_claim -> Big_int_Z.big_int list -> int -> int -> bool **)
@@ -2650,13 +2654,13 @@ let is_biactive s l j =
 
 let particle_states s u l j =
   let p = particle s j in
-  let rate0 = witness l.rate_reductions j in
+  let rate = witness l.rate_reductions j in
   let reaction = witness l.cone_reductions j in
   (&&) (shows_zero l.motion_claim (normal_poly l p) (witness l.normal_reductions j))
     ((&&)
       (if in_support s l j
-       then shows_negative l.motion_claim (rate_poly l p) rate0
-       else shows_zero l.motion_claim (rate_poly l p) rate0)
+       then shows_negative l.motion_claim (rate_poly l p) rate
+       else shows_zero l.motion_claim (rate_poly l p) rate)
       (if (||) (in_support s l j) (is_biactive s l j)
        then shows_zero l.motion_claim (cone_poly s u l p) reaction
        else shows_negative l.motion_claim (cone_poly s u l p) reaction))
@@ -3869,9 +3873,9 @@ let reach a lo hi =
   Big_int_Z.max_big_int (Big_int_Z.abs_big_int (offset a lo hi))
     (Big_int_Z.abs_big_int (Big_int_Z.add_big_int (offset a lo hi) (extent a lo hi)))
 
-(** val bound_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+(** val lower_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int **)
 
-let bound_n a low_a low_b lo =
+let lower_n a low_a low_b lo =
   Big_int_Z.mult_big_int (snd a.anchor_center)
     (Big_int_Z.add_big_int
       (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int low_a.bound_at low_b.bound_times)
@@ -3879,9 +3883,9 @@ let bound_n a low_a low_b lo =
       (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (fst lo) low_b.bound_at)
         low_a.bound_times))
 
-(** val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int **)
+(** val lower_d : form_bound -> form_bound -> point -> Big_int_Z.big_int **)
 
-let bound_d0 low_a low_b lo =
+let lower_d low_a low_b lo =
   Big_int_Z.mult_big_int (Big_int_Z.mult_big_int low_a.bound_times low_b.bound_times) (snd lo)
 
 (** val proper_interval : anchor -> form_bound -> form_bound -> point -> point -> bool **)
@@ -3891,7 +3895,7 @@ let proper_interval a low_a low_b lo hi =
     ((&&) (Z.ltb Big_int_Z.zero_big_int (snd lo))
       ((&&) (Z.ltb Big_int_Z.zero_big_int (snd hi))
         ((&&) (Z.ltb Big_int_Z.zero_big_int (interval_width lo hi))
-          (Z.ltb Big_int_Z.zero_big_int (bound_n a low_a low_b lo)))))
+          (Z.ltb Big_int_Z.zero_big_int (lower_n a low_a low_b lo)))))
 
 (** val remainder_radius :
     anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int ->
@@ -3902,9 +3906,9 @@ let remainder_radius a low_a low_b lo power nl nr =
   divide_up
     (Big_int_Z.mult_big_int
       (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (fst nl)) (fst nr))
-      (bound_d0 low_a low_b lo))
+      (lower_d low_a low_b lo))
     (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (snd nl) (snd nr))
-      (bound_n a low_a low_b lo))
+      (lower_n a low_a low_b lo))
 
 (** val remainder_slope :
     anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> Big_int_Z.big_int
@@ -3919,29 +3923,29 @@ let remainder_slope a low_a low_b fam lo hi power nl nr dl dr =
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int
             (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (extent a lo hi)) (fst dl))
-            (fst nr)) (bound_d0 low_a low_b lo))
+            (fst nr)) (lower_d low_a low_b lo))
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (unit_y a lo hi) (snd dl)) (snd nr))
-          (bound_n a low_a low_b lo)))
+          (lower_n a low_a low_b lo)))
       (divide_up
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int
             (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
-            (fst dr)) (bound_d0 low_a low_b lo))
+            (fst dr)) (lower_d low_a low_b lo))
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd dr))
-          (bound_n a low_a low_b lo))))
+          (lower_n a low_a low_b lo))))
     (divide_up
       (Big_int_Z.mult_big_int
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int
             (Big_int_Z.mult_big_int
               (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int power (extent a lo hi)) (fst nl))
-              (fst nr)) fam.drift) (bound_d0 low_a low_b lo)) (bound_d0 low_a low_b lo))
+              (fst nr)) fam.drift) (lower_d low_a low_b lo)) (lower_d low_a low_b lo))
       (Big_int_Z.mult_big_int
         (Big_int_Z.mult_big_int
           (Big_int_Z.mult_big_int (Big_int_Z.mult_big_int (unit_y a lo hi) (snd nl)) (snd nr))
-          (bound_n a low_a low_b lo)) (bound_n a low_a low_b lo)))
+          (lower_n a low_a low_b lo)) (lower_n a low_a low_b lo)))
 
 (** val entry_of :
     anchor -> form_bound -> form_bound -> anchor_family -> point -> point -> bool -> polynomial

@@ -332,7 +332,7 @@ type box = { inverse : matrix; unit_low : Big_int_Z.big_int; unit_high : Big_int
              width : Big_int_Z.big_int }
 
 type uniqueness = { system_inverse : matrix; system_unit_low : Big_int_Z.big_int;
-                    system_unit_high : Big_int_Z.big_int; rate : Big_int_Z.big_int }
+                    system_unit_high : Big_int_Z.big_int; system_rate : Big_int_Z.big_int }
 
 val unit_entry : Big_int_Z.big_int -> int -> int -> Big_int_Z.big_int
 
@@ -588,6 +588,8 @@ val norm1 : Big_int_Z.big_int list -> Big_int_Z.big_int
 val row_of : matrix -> int -> Big_int_Z.big_int list
 
 val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
+
+val eliminated_bound : elimination -> form_bound
 
 val stiffness_positive : blocks -> elimination -> bool
 
@@ -1328,9 +1330,9 @@ val unit_y : anchor -> point -> point -> Big_int_Z.big_int
 
 val reach : anchor -> point -> point -> Big_int_Z.big_int
 
-val bound_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int
+val lower_n : anchor -> form_bound -> form_bound -> point -> Big_int_Z.big_int
 
-val bound_d0 : form_bound -> form_bound -> point -> Big_int_Z.big_int
+val lower_d : form_bound -> form_bound -> point -> Big_int_Z.big_int
 
 val proper_interval : anchor -> form_bound -> form_bound -> point -> point -> bool
 
