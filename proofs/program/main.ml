@@ -1,4 +1,5 @@
 (* mceip-verified PROBLEM CERTIFICATE [--window a,b | --infinity]
+   mceip-verified --coq PROBLEM CERTIFICATE [--window a,b | --infinity]
 
    Exit codes: 0 accepted, 1 rejected, 2 malformed, 3 undecided: the verified statement leaves
    regions open, 4 not verified: the certificate has evidence that the kernel has no theorem for,
@@ -16,8 +17,12 @@ let prove given scales make =
   | Proved statement -> evidence, statement
   | refused -> raise (Evidence.refusal evidence refused)
 
-(* Print the accepted question and its witness as a Coq file instead of the verdict. *)
+(* Print a Coq file instead of the verdict.  Then the exit code is 0 for open regions as well. *)
 let as_coq = ref false
+
+(* What is printed of what has been proved.  The exit code. *)
+let tell given digest scales proved say =
+  if !as_coq then (Coq.print given digest scales proved; 0) else say (List.map snd proved)
 
 let answers demanded (statements : Kernel.statement list) =
   match demanded, statements with
@@ -30,16 +35,15 @@ let verify_parts demanded (problem : Problem.t) (integers : Scaling.t) parts =
   let proved = List.map (prove problem.given integers.scales) parts in
   if not (answers demanded (List.map snd proved)) then
     raise (Evidence.Rejected "the statement does not answer what is demanded");
-  match List.rev proved with
-  | (evidence, statement) :: _ when !as_coq ->
-    Coq.print_answer integers.question evidence statement; 0
-  | _ -> Sentences.say problem (List.map snd proved)
+  tell problem.given problem.digest integers.scales proved (Sentences.say problem)
 
 (* The rates of a body, beside the verdict on a cover, which nothing that happens here changes. *)
 let say_rates (problem : Problem.t) (integers : Scaling.t) certificate =
-  let prove evidence = Kernel.answer problem.given integers.scales evidence in
+  let prove evidence = evidence, Kernel.answer problem.given integers.scales evidence in
   match Option.map prove (Evidence.rates integers certificate) with
-  | Some (Proved (OneMotionOfRates (lo, hi))) -> Sentences.one_motion_of_rates lo hi
+  | Some (evidence, Proved (OneMotionOfRates _ as rates)) when !as_coq ->
+    Coq.print_part "rates" (evidence, rates)
+  | Some (_, Proved (OneMotionOfRates (lo, hi))) -> Sentences.one_motion_of_rates lo hi
   | _ | exception _ -> ()
 
 let refuse_window demanded kind =
@@ -83,27 +87,27 @@ let verify_eigenproblem demanded document problem_path certificate_path =
       | Equilibrium _, _ ->
         Json.malformed "format: mceip-equilibrium/1 is about a body under loads, mceip-loads/1") in
   (match certificate, demanded with
-   | Complete certificate, (Anything | Window _) when code = 0 && not !as_coq ->
+   | Complete certificate, (Anything | Window _) when code = 0 ->
      say_rates problem integers certificate
    | _ -> ());
   code
 
 let verify_plain document certificate_path =
   let problem = Plain.read document in
-  let _ = prove (Kernel.GivenPlain problem.rows) (Scaling.of_plain problem.rows)
-      (fun () -> Evidence.plain problem certificate_path) in
-  Sentences.points problem.digest;
-  0
+  let given = Kernel.GivenPlain problem.rows and scales = Scaling.of_plain problem.rows in
+  let proved = prove given scales (fun () -> Evidence.plain problem certificate_path) in
+  tell given problem.digest scales [proved] (fun _ -> Sentences.points problem.digest; 0)
 
 let verify_loads problem_path document certificate_path =
   let problem = Loads.read problem_path document in
   match Certificate.read certificate_path with
   | Equilibrium certificate ->
+    let given = Kernel.GivenLoads problem.body in
     let scales, evidence = Equilibria.evidence problem certificate in
-    (match prove (Kernel.GivenLoads problem.body) scales (fun () -> evidence) with
-     | _, InEquilibrium (mu, amounts, states) ->
-       Sentences.equilibrium problem.digest (mu, amounts, states); 0
-     | _ -> invalid_arg "a statement of another kind")
+    tell given problem.digest scales [prove given scales (fun () -> evidence)] (function
+        | [InEquilibrium (mu, amounts, states)] ->
+          Sentences.equilibrium problem.digest (mu, amounts, states); 0
+        | _ -> invalid_arg "a statement of another kind")
   | _ -> Json.malformed "format: mceip-equilibrium/1 was expected"
 
 (* a,b with a <= b and 0 <= b; a may be -inf or empty, b may be inf or empty. *)
@@ -158,13 +162,17 @@ let answer_lines () =
   with End_of_file -> ()
 
 let () =
-  match Sys.argv with
-  | [| _; "--lines" |] -> answer_lines ()
-  | [| _; "--coq"; problem; certificate |] -> as_coq := true; exit (answer problem certificate)
-  | [| _; problem; certificate |] -> exit (answer problem certificate)
-  | [| _; problem; certificate; "--window"; window |] ->
+  let arguments = match List.tl (Array.to_list Sys.argv) with
+    | "--coq" :: rest -> as_coq := true; rest
+    | all -> all in
+  match arguments with
+  | ["--lines"] -> answer_lines ()
+  | [problem; certificate] -> exit (answer problem certificate)
+  | [problem; certificate; "--window"; window] ->
     exit (answer ~demanded:(fun () -> Window (window_of window)) problem certificate)
-  | [| _; problem; certificate; "--infinity" |] ->
+  | [problem; certificate; "--infinity"] ->
     exit (answer ~demanded:(fun () -> Infinity) problem certificate)
   | _ ->
-    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE [--window a,b | --infinity]"; exit 2
+    prerr_endline "usage: mceip-verified PROBLEM CERTIFICATE [--window a,b | --infinity]";
+    prerr_endline "       mceip-verified --coq PROBLEM CERTIFICATE [--window a,b | --infinity]";
+    exit 2

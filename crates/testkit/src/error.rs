@@ -154,8 +154,8 @@ pub enum TestkitError {
     /// No verified checker at this path.
     #[error(
         "no verified checker at {path}: `make -C proofs program` builds proofs/mceip-verified \
-         (OCaml and zarith are needed, Coq is not); another place is named by --verified PATH or \
-         MCEIP_VERIFIED"
+         (OCaml, zarith and python3 are needed, Coq is not); another place is named by \
+         --verified PATH or MCEIP_VERIFIED"
     )]
     NoVerifiedChecker {
         /// Where it was expected.
