@@ -220,6 +220,9 @@ fn too_few_digits_are_inaccurate() {
 
     let far = case.judge(&report(&answer, &[moved(solution, 5e-3)]));
     assert_eq!(far.label, Label::Wrong, "{far:?}");
+    for words in ["off by 5.0e-3 in the value", "is not certified"] {
+        assert!(far.detail.contains(words), "{far:?}");
+    }
 
     let both = [moved(solution, 5e-4), moved(solution, 5e-3)];
     let both = case.judge(&report(&answer, &both));
@@ -240,6 +243,60 @@ fn too_few_digits_are_inaccurate() {
     let without = json!({ "value": 1.001, "x": [1, 0] });
     let cut = tiny.judge(&report(&tiny.answer_json(), &[without]));
     assert_eq!(cut.label, Label::Wrong, "{cut:?}");
+}
+
+/// The answer has -2 and 3, or a cone at -2, or a continuum, of which no value is nearest.
+#[test]
+fn a_wrong_value_is_compared_with_those_of_the_answer() {
+    let cases = cases();
+    let detail = |id: &str, value: f64, x: &[i32]| {
+        let case = cases.iter().find(|case| case.id == id).unwrap();
+        let text = report(&case.answer_json(), &[json!({ "value": value, "x": x })]);
+        let judged = case.judge(&text);
+        assert_eq!(judged.label, Label::Wrong, "{judged:?}");
+        judged.detail
+    };
+
+    let flipped = "solution 0: the answer has -2: the sign of the value is flipped";
+    let nearest = "solution 0: the nearest solution of the answer has the value ";
+    for (id, value, x, begin) in [
+        ("eigenvalue-00", 2.0, &[1, 0][..], flipped.to_owned()),
+        // With the x of 3 it is no -2 of the other sign.
+        (
+            "eigenvalue-00",
+            2.0,
+            &[0, 1],
+            format!("{nearest}3: off by 2.5e-1"),
+        ),
+        (
+            "eigenvalue-00",
+            5.0,
+            &[0, 1],
+            format!("{nearest}3: off by 5.0e-1"),
+        ),
+        (
+            "eigenvalue-00",
+            3.0,
+            &[1, 0],
+            format!("{nearest}3: off by 0.0e0"),
+        ),
+        ("eigenvalue-04", 2.0, &[1, 1, 2], flipped.to_owned()),
+        (
+            "eigenvalue-04",
+            -5.0,
+            &[1, 1, 2],
+            format!("{nearest}-2: off by 1.0e0"),
+        ),
+        (
+            "eigenvalue-11",
+            5.0,
+            &[1, 0, 0],
+            "solution 0: value 5 is not certified".into(),
+        ),
+    ] {
+        let detail = detail(id, value, x);
+        assert!(detail.starts_with(&begin), "{id} {value}: {detail}");
+    }
 }
 
 /// Every wrong answer gets its label, and what is false in it is refuted by certify, check and

@@ -18,7 +18,7 @@
 
 use super::case::{Case, CaseAnswer};
 use super::certified::CertifiedAnswer;
-use super::nearest::Distance;
+use super::nearest::{Distance, hint};
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_check::{AcceptedClaim, Place};
 use mceip_engine::candidate::Candidate;
@@ -302,12 +302,12 @@ impl MetParts<'_> {
                 if let Some(distance) = Distance::to_nearest(self.case, candidate) {
                     return Err(NoPlace::Near { distance, why });
                 }
-                return Err(NoPlace::False(
-                    match negative_component(self.case.reduced(), candidate) {
-                        Some(negative) => format!("value {value}: {negative}"),
-                        None => why,
-                    },
-                ));
+                if let Some(negative) = negative_component(self.case.reduced(), candidate) {
+                    return Err(NoPlace::False(format!("value {value}: {negative}")));
+                }
+                let hint = hint(self.case, candidate);
+                let hint = hint.map_or(String::new(), |hint| format!("{hint}; "));
+                return Err(NoPlace::False(format!("{hint}{why}")));
             }
         };
 
