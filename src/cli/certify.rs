@@ -72,38 +72,40 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     let job = Job::begin("certifying");
-    let on_side = |side| Certifying {
-        side,
-        radius: radius.as_ref(),
-        job: &job,
-    };
-    let mut own = Vec::new();
-    let mut reflected = Vec::new();
-    let mut next_to_zero = Vec::new();
-    for (index, point) in points.iter().enumerate() {
-        let sought = match point {
-            Ok(reported) => Sought::of(&signs, &reported.candidate),
-            // What is no vector has no value to go by.
-            Err(_) => Sought::Own,
-        };
-        match sought {
-            Sought::Own => own.push((index, point)),
-            Sought::Reflected => reflected.push((index, point)),
-            Sought::Both(reasons) => next_to_zero.push((index, point, reasons)),
-        }
-    }
+    let own = Certifying::on(signs.own(), radius.as_ref(), &job);
+    let reflected = signs.reflected();
+    let reflected = reflected.map(|side| Certifying::on(side, radius.as_ref(), &job));
+    let mut judged = Judged::default();
+    let mut negative = Judged::default();
 
-    let mut judged = on_side(signs.own()).judge(own);
-    let mut judged_negative = signs.reflected().map(|side| on_side(side).judge(reflected));
-    if let (Some(side), Some(negative)) = (signs.reflected(), &mut judged_negative) {
-        let sides = [on_side(signs.own()), on_side(side)];
-        for (index, point, reasons) in next_to_zero {
-            if let Ok(reported) = point {
-                let of_sides = [&mut judged, &mut *negative];
-                judge_on_both(&sides, of_sides, index, reported, &reasons)?;
+    for (index, point) in points.iter().enumerate() {
+        if job.is_cancelled() {
+            job.note(&format!(
+                "solutions from {index} on: interrupted before they were looked at"
+            ));
+            break;
+        }
+
+        let reported = match point {
+            Ok(reported) => reported,
+            // What is no vector has no side to be looked for.
+            Err(bad) => {
+                judged.add_no_vector(&job, index, bad);
+                continue;
             }
+        };
+        match (Sought::of(&signs, &reported.candidate), &reflected) {
+            (Sought::Reflected, Some(reflected)) => reflected.judge(&mut negative, index, reported),
+            (Sought::Both(reasons), Some(reflected)) => {
+                let of_sides = [&mut judged, &mut negative];
+                judge_on_both([&own, reflected], of_sides, index, reported, &reasons)?;
+            }
+            // Without a reflection every point is looked for on the problem's own side.
+            (Sought::Own, _) | (_, None) => own.judge(&mut judged, index, reported),
         }
     }
+    judged.leave_out_claimed();
+    negative.leave_out_claimed();
     job.end();
     if let Body::System(system) = problem.body()
         && args.lifted
@@ -111,11 +113,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         judged.lift(&problem, system);
     }
 
-    if let Some(negative) = &mut judged_negative {
-        negative.leave_out_zeros_of(&judged);
-    }
+    negative.leave_out_zeros_of(&judged);
     let mut files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
-    if let (Some(reflected), Some(mut negative)) = (signs.reflected(), judged_negative) {
+    if let Some(reflected) = signs.reflected() {
         let claims = std::mem::take(&mut negative.claims);
         files = of_both_signs(&problem, files, Proved::claims(&reflected.problem, claims)?)?;
         judged.add_negative(&problem, negative)?;
@@ -180,18 +180,13 @@ impl Sought {
 /// What becomes of a point next to 0 that is not certified on either side: it is no solution only
 /// if it is none on both. The problem and what is judged of it come first, then the reflection.
 fn judge_on_both(
-    [own, reflected]: &[Certifying<'_>; 2],
+    [own, reflected]: [&Certifying<'_>; 2],
     [judged, negative]: [&mut Judged; 2],
     index: usize,
     reported: &Reported,
     reasons: &[NotCertified; 2],
 ) -> Result<(), CliError> {
     let job = own.job;
-    if job.is_cancelled() {
-        job.note(&interrupted(index));
-        return Ok(());
-    }
-
     let value = reported.candidate.value;
     let [why_above, why_below] = reasons;
     let above = own.look_nearby(&own.side.candidate(&reported.candidate), why_above);
@@ -208,10 +203,6 @@ fn judge_on_both(
     let neither = above.and_below(&own.side.problem, below)?;
     judged.add(job, index, value, neither);
     Ok(())
-}
-
-fn interrupted(index: usize) -> String {
-    format!("solution {index}: interrupted before it was looked at")
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
@@ -282,16 +273,6 @@ impl Examination {
             solution: None,
         })
     }
-
-    /// What is no vector of the problem is no solution.
-    fn no_vector(bad: &BadPoint) -> Examination {
-        Examination {
-            verdict: ExaminationVerdict::Disproved,
-            text: format!("REFUSED: {bad}"),
-            proof: None,
-            solution: None,
-        }
-    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -346,6 +327,18 @@ impl Judged {
         }
         self.refused.sort_by_key(|refused| refused.index);
         Ok(())
+    }
+
+    /// Says that what is no vector of the problem is no solution.
+    fn add_no_vector(&mut self, job: &Job, index: usize, bad: &BadPoint) {
+        let finding = Examination {
+            verdict: ExaminationVerdict::Disproved,
+            text: format!("REFUSED: {bad}"),
+            proof: None,
+            solution: None,
+        };
+        job.note(&format!("solution {index}: {}", finding.text));
+        self.refused.push(Refused { index, finding });
     }
 
     /// Says what is found of a solution without a claim, and keeps it unless it was listed before.
@@ -487,53 +480,40 @@ fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
 /// What is needed to judge a point.
 struct Certifying<'a> {
     side: &'a OfSign,
+    certifier: Certifier<'a>,
     /// How far from its value absence is to be proved, if the user has said it.
     radius: Option<&'a Rational>,
     job: &'a Job,
 }
 
-impl Certifying<'_> {
-    /// Certifies one after the other and says what becomes of each, until interrupted.
-    fn judge(&self, points: Vec<(usize, &Result<Reported, BadPoint>)>) -> Judged {
-        let certifier = Certifier::new(&self.side.problem, &self.side.reduced.pencil);
-        let mut judged = Judged::default();
-        for (index, point) in points {
-            if self.job.is_cancelled() {
-                self.job.note(&interrupted(index));
-                break;
+impl<'a> Certifying<'a> {
+    fn on(side: &'a OfSign, radius: Option<&'a Rational>, job: &'a Job) -> Certifying<'a> {
+        Certifying {
+            side,
+            certifier: Certifier::new(&side.problem, &side.reduced.pencil),
+            radius,
+            job,
+        }
+    }
+
+    /// Certifies a point of the report, or says what becomes of it.
+    fn judge(&self, judged: &mut Judged, index: usize, reported: &Reported) {
+        let value = reported.candidate.value;
+        let candidate = &self.side.candidate(&reported.candidate);
+        match self.certifier.certify_with_verdict(candidate) {
+            Ok((claim, _)) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
+                self.job
+                    .note(&format!("solution {index} (value {value}): listed before"));
             }
-
-            let reported = match point {
-                Ok(reported) => reported,
-                Err(bad) => {
-                    let finding = Examination::no_vector(bad);
-                    let text = &finding.text;
-                    self.job.note(&format!("solution {index}: {text}"));
-                    judged.refused.push(Refused { index, finding });
-                    continue;
-                }
-            };
-
-            let value = reported.candidate.value;
-            let candidate = &self.side.candidate(&reported.candidate);
-            match certifier.certify_with_verdict(candidate) {
-                Ok((claim, _)) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
-                    self.job
-                        .note(&format!("solution {index} (value {value}): listed before"));
-                }
-                Ok((claim, verdict)) => {
-                    judged.claims.push(claim);
-                    judged.verdicts.push(verdict);
-                }
-                Err(reason) => {
-                    let finding = self.look_nearby(candidate, &reason);
-                    judged.add(self.job, index, value, finding);
-                }
+            Ok((claim, verdict)) => {
+                judged.claims.push(claim);
+                judged.verdicts.push(verdict);
+            }
+            Err(reason) => {
+                let finding = self.look_nearby(candidate, &reason);
+                judged.add(self.job, index, value, finding);
             }
         }
-
-        judged.leave_out_claimed();
-        judged
     }
 
     /// Searches for all solutions near a point that was not certified for this reason.
