@@ -4,7 +4,7 @@ use super::{counted, range_text, slip_text};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::search::complete::continua::joined;
 use mceip_exact::{Interval, enclosing_decimals};
-use mceip_model::Problem;
+use mceip_model::{Body, Problem};
 
 /// Families and open regions printed in full.
 const SHOWN: usize = 20;
@@ -38,17 +38,18 @@ pub(crate) fn text(problem: &Problem, window: &str, cover: &AcceptedCover) -> St
         out += &format!("open: {more} more regions (see the certificate)\n");
     }
 
-    out + &verdict_text(window, cover)
+    out + &verdict_text(problem, window, cover)
 }
 
 /// The last line: is the set complete, and how large is it?
-fn verdict_text(window: &str, cover: &AcceptedCover) -> String {
+fn verdict_text(problem: &Problem, window: &str, cover: &AcceptedCover) -> String {
     let leaves = cover.leaves;
     let open = cover.open.len();
     let count = count_text(cover);
     if open > 0 {
         let open = counted(open, "region");
-        return format!("UNDECIDED: {count} proved in {window}, {open} open\n");
+        let remedy = remedy_text(problem, cover);
+        return format!("UNDECIDED: {count} proved in {window}, {open} open{remedy}\n");
     }
 
     let is_empty = cover.solutions.is_empty() && cover.families.is_empty();
@@ -59,6 +60,28 @@ fn verdict_text(window: &str, cover: &AcceptedCover) -> String {
     };
 
     format!("COMPLETE: {set}; {leaves} leaves, accepted by the checker\n")
+}
+
+/// What to do where a search over all values of a quadratic problem has gone out to infinity in
+/// vain; empty elsewhere.
+///
+/// There every variable is decided and the region stays open all the same. Regions that no search
+/// has reached, as after an interrupt, have undecided variables.
+fn remedy_text(problem: &Problem, cover: &AcceptedCover) -> String {
+    let is_vain = |region: &&OpenRegion| {
+        let is_unbounded = region.min.is_none() || region.max.is_none();
+        is_unbounded && region.undecided.is_empty()
+    };
+
+    let count = cover.open.iter().filter(is_vain).count();
+    let is_quadratic = matches!(problem.body(), Body::Quadratic(_));
+    if !is_quadratic || count == 0 {
+        return String::new();
+    }
+    format!(
+        ", {count} of them out to infinity, as where c is singular: a bounded window (mceip \
+         complete --window=-1e6,1e6) leaves them out, and mceip enumerate decides them exactly"
+    )
 }
 
 /// "2 solutions and 1 families of them".
