@@ -35,6 +35,7 @@ use mceip_model::{LoadedBody, ModelError, Problem, RealWindow, Unknown};
 use num_traits::Zero;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
@@ -363,6 +364,7 @@ fn say_accepted(
     let cover = accepted.cover.as_ref();
     let mut out = String::new();
     let negative = certificate.negative.as_ref();
+    let mut claimed = BTreeSet::new();
     for (k, claim) in accepted.claims.iter().enumerate() {
         // A claim has a place in the complete set of its part.
         let is_negative = k >= certificate.claims.len();
@@ -373,7 +375,16 @@ fn say_accepted(
         };
         let cover = cover.filter(|_| has_set);
         let place = cover.and_then(|cover| cover.place_of(claim));
+        if let Some(Place::Solution(solution)) = place {
+            claimed.insert(solution);
+        }
         out += &claim_text(problem, claim, place);
+    }
+    if let Some(cover) = cover
+        && !accepted.claims.is_empty()
+        && claimed.len() < cover.solutions.len()
+    {
+        out += "a solution of the list below without a claim is proved by the cover alone\n";
     }
 
     let mut code = exit::DONE;
