@@ -511,6 +511,27 @@ fn programs_may_answer_line_by_line() {
     }
 }
 
+/// A program that reads to the end of its input is told what `--lines` asks for.
+#[cfg(unix)]
+#[test]
+fn a_program_that_waits_for_the_end_of_its_input_is_told_what_lines_are() {
+    let options = ["--case", "window-00", "--json", "--time-limit", "0.5"];
+    let waits = format!("cat > /dev/null; {NOTHING_FOUND}");
+    let by_lines = [&options[..], &["--lines"]].concat();
+    let report = conform(&by_lines, &["sh", "-c", &waits]).report();
+
+    let failure = &report["failures"][0];
+    assert_eq!(failure["label"], "timed out", "{report:#}");
+    let detail = failure["detail"].as_str().unwrap();
+    assert!(
+        detail.contains("does not read to the end of its input"),
+        "{detail}"
+    );
+
+    let report = conform(&options, &["sh", "-c", SLEEPING]).report();
+    assert_eq!(report["failures"][0]["detail"], "still running after 0.5 s");
+}
+
 /// What a program prints beyond its answer, or that it ends after it, is not charged to the next
 /// case, however quick the machine is.
 #[cfg(unix)]

@@ -241,7 +241,12 @@ impl Run<'_> {
             ProcessEnding::Interrupted => return None,
             ProcessEnding::TimedOut => {
                 let seconds = limits.time.as_secs_f64();
-                Judgement::new(Label::TimedOut, format!("still running after {seconds} s"))
+                let mut why = format!("still running after {seconds} s");
+                if self.plan.by_lines {
+                    why += " without a line: with --lines a program answers each line as it comes, \
+                            flushes its output and does not read to the end of its input";
+                }
+                Judgement::new(Label::TimedOut, why)
             }
             ProcessEnding::TooLong => {
                 let bytes = limits.output;
