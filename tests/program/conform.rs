@@ -703,6 +703,15 @@ fn cases_are_left_out_by_their_flags() {
     assert_eq!(linear.len() + quadratic.len(), all.len());
     assert!(quadratic.iter().all(|id| !linear.contains(id)));
 
+    // Of five random cases one is an eigenvalue problem.
+    let random = |except: &str| {
+        let options = format!("--case eigenvalue-00 --count 30 {except} --json");
+        exits_with_json(1, &format!("conform {options} -- true"))
+    };
+    assert_eq!(random("--only eigenvalue")["cases"], 7);
+    assert_eq!(random("--except eigenvalue")["cases"], 24);
+    assert!(random("--only quadratic")["cases"].as_u64() > Some(1));
+
     let options = "--only quadratic --except one_by_one --except random";
     let expected = ids(options).len();
     let run = exits_with_json(1, &format!("conform {options} --json -- true"));

@@ -7,7 +7,7 @@
 use super::case::{Draft, Group};
 use super::flag::Flag;
 use super::groups::{draft, group};
-use crate::families::{I2, I3, SmallRows, eigenvalue_problems};
+use crate::families::{I2, I3, Instance, SmallRows, eigenvalue_problem};
 use crate::pareto;
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
@@ -26,13 +26,9 @@ pub(super) fn eigenvalues(seed: u64) -> Result<Group, ModelError> {
     for described in [linear()?, pareto_matrices()?, windows()?, quadratic()?].concat() {
         drafts.push(numbered(&drafts, &[], described));
     }
-    for instance in eigenvalue_problems(RANDOM, seed)? {
-        let problem = instance.problem.with_real_window(&RealWindow::ALL);
-        drafts.push(numbered(
-            &drafts,
-            &[Flag::Random],
-            (instance.label, problem),
-        ));
+    for k in 0..RANDOM {
+        let Instance { label, problem, .. } = random_eigenvalue_problem(k, seed)?;
+        drafts.push(numbered(&drafts, &[Flag::Random], (label, problem)));
     }
 
     Ok(group(
@@ -40,6 +36,16 @@ pub(super) fn eigenvalues(seed: u64) -> Result<Group, ModelError> {
         "eigenvalue complementarity problems, linear and quadratic: values of both signs",
         drafts,
     ))
+}
+
+/// The `k`-th random problem of a seed, over the whole line: linear and quadratic ones in turn.
+///
+/// # Errors
+/// None: the generator gives at least one variable.
+pub(super) fn random_eigenvalue_problem(k: usize, seed: u64) -> Result<Instance, ModelError> {
+    let mut instance = eigenvalue_problem(k, seed)?;
+    instance.problem = instance.problem.with_real_window(&RealWindow::ALL);
+    Ok(instance)
 }
 
 /// A problem and what it is about.

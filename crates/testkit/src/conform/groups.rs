@@ -6,11 +6,12 @@
 //! cases for `run`.
 
 use super::case::{Draft, Group};
-use super::eigenvalues::eigenvalues;
+use super::eigenvalues::{eigenvalues, random_eigenvalue_problem};
 use super::flag::Flag;
 use crate::error::TestkitError;
 use crate::families::{AngleFriction, Corner, I2, I3, Instance, SIGNS, SmallRows};
-use crate::families::{frictions, mechanical, random_pencils, small_problem};
+use crate::families::{frictions, mechanical, mechanical_system};
+use crate::families::{random_pencil, random_pencils, small_problem};
 use crate::{known, pareto};
 use mceip_engine::reduction::condense;
 use mceip_exact::{Rational, Sparse, rational, whole};
@@ -51,27 +52,22 @@ pub fn groups() -> Result<Vec<Group>, TestkitError> {
     ])
 }
 
-/// Random case `k` of a seed: three pencils to one mechanical system, as the random groups have
-/// them.
+/// Random case `k` of a seed: three pencils to one mechanical system and one eigenvalue problem, as
+/// the random groups have them.
 ///
 /// # Errors
 /// [`ModelError`]; none, the generators make admissible problems.
 pub fn random_draft(k: usize, seed: u64) -> Result<Draft, ModelError> {
-    // The generators number their instances by the seed's own stream: one instance of a seed of its
-    // own.
+    // Each case has a seed of its own.
     let seed_of = seed
         .wrapping_mul(0x9E37_79B9_7F4A_7C15)
         .wrapping_add(k as u64);
 
-    let made = if k % 4 == 3 {
-        mechanical(1 + k / 4 % 2, seed_of)?
-    } else {
-        random_pencils(1 + k % 2, seed_of)?
+    let instance = match k % 5 {
+        3 => mechanical_system(k / 5, seed_of)?,
+        4 => random_eigenvalue_problem(k / 5, seed_of)?,
+        _ => random_pencil(k, seed_of)?,
     };
-
-    let instance = made.into_iter().next_back().ok_or(ModelError::Empty {
-        what: "random family",
-    })?;
 
     Ok(draft(
         format!("random-{seed}-{k}"),
