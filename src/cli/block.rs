@@ -20,7 +20,7 @@ use super::job::Job;
 use super::output::Folder;
 use args::published;
 use mceip_check::Proved;
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, counted};
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::file::write_problem;
 use mceip_paper::{Block, PublishedState};
@@ -179,8 +179,8 @@ pub(super) fn text_of(reports: &[BlockReport]) -> String {
 fn all_solutions(report: &BlockReport) -> String {
     let count = report.cover.solutions.len();
     if report.is_complete() {
-        let leaves = report.cover.leaves;
-        format!("{count}, proved ({leaves} leaves)")
+        let leaves = counted(report.cover.leaves, "leaf");
+        format!("{count}, proved ({leaves})")
     } else {
         format!("{count} proved, some regions open")
     }

@@ -15,6 +15,7 @@ use mceip_engine::certify::{
 };
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
 use mceip_engine::multistart::{exact_value, is_about, same_x};
+use mceip_engine::report::counted;
 use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
 use mceip_engine::signs::{BothSigns, OfSign};
@@ -389,13 +390,9 @@ impl Judged {
         let disproved = self.count(ExaminationVerdict::Disproved);
         let undecided = self.count(ExaminationVerdict::Undecided);
         let certified = claimed + self.count(ExaminationVerdict::Present);
-        let noun = if certified == 1 {
-            "solution"
-        } else {
-            "solutions"
-        };
+        let certified = counted(certified, "distinct solution");
         aside(&format!(
-            "{certified} distinct {noun} certified, {disproved} of {reported} disproved, \
+            "{certified} certified, {disproved} of {reported} disproved, \
              {undecided} undecided"
         ));
     }
@@ -563,11 +560,10 @@ impl<'a> Certifying<'a> {
             Ok(Near::Open(searched)) => Examination {
                 verdict: ExaminationVerdict::Undecided,
                 text: format!(
-                    "undecided: {reason}; {} regions stay open and {} families of solutions lie \
-                     {}{}",
-                    searched.cover.open.len(),
-                    searched.cover.families.len(),
+                    "undecided: {reason}; left {}: {} and {} of solutions{}",
                     interval(problem, &searched),
+                    counted(searched.cover.open.len(), "open region"),
+                    counted(searched.cover.families.len(), "family"),
                     if searched.has_every_x() {
                         ""
                     } else {

@@ -26,6 +26,7 @@ use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, ForeignVerdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::lean::{HasAnchors, LEAN_FORMAT, elaborate, skeleton};
+use mceip_engine::report::counted;
 use mceip_engine::run::Progress;
 use mceip_engine::signs::BothSigns;
 use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
@@ -231,7 +232,8 @@ fn absence_text(problem: &Problem, accepted: &AcceptedAbsence) -> String {
     } = accepted;
     let of = members(*is_of_every_member);
     let digest = problem.sha256();
-    let evidence = format!("lambda2, problem {digest}, {leaves} leaves accepted");
+    let leaves = counted(*leaves, "leaf");
+    let evidence = format!("lambda2, problem {digest}, {leaves} accepted");
     // At mu = 0 a slip particle may slide both ways, of which (9) has one.
     let begin = if from.is_zero() { "(" } else { "[" };
     let [from, below] = [from, below].map(number_text);
@@ -285,7 +287,8 @@ fn presence_text(problem: &Problem, accepted: &AcceptedPresence) -> String {
     } = accepted;
     let of = members(*is_of_every_member);
     let digest = problem.sha256();
-    let evidence = format!("lambda2, problem {digest}, {pieces} pieces accepted");
+    let pieces = counted(*pieces, "piece");
+    let evidence = format!("lambda2, problem {digest}, {pieces} accepted");
     let [from, to] = [from, to].map(number_text);
     format!(
         "PRESENT for every friction in [{from}, {to}]: a solution with lambda2 >= 0{of} \
@@ -384,7 +387,8 @@ fn say_accepted(
         && !accepted.claims.is_empty()
         && claimed.len() < cover.solutions.len()
     {
-        out += "a solution of the list below without a claim is proved by the cover alone\n";
+        let others = counted(cover.solutions.len() - claimed.len(), "solution");
+        out += &format!("without a claim, proved by the cover alone: {others} of the list below\n");
     }
 
     let mut code = exit::DONE;
@@ -423,16 +427,17 @@ fn claims_verdict(problem: &Problem, windows: &[RealWindow], count: usize) -> St
     let digest = problem.sha256();
     let smaller = smaller_text(windows, problem);
     let window = windows_text(windows);
-    format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {window}{smaller}\n")
+    let claims = counted(count, "claim");
+    format!("ACCEPTED: {claims} proved for problem {digest} in {window}{smaller}\n")
 }
 
 /// The verdict on a cover that proves that there is no solution.
 fn absence_verdict(problem: &Problem, windows: &[RealWindow], cover: &AcceptedCover) -> String {
     let word = problem.unknown().word();
     let digest = problem.sha256();
-    let leaves = cover.leaves;
+    let leaves = counted(cover.leaves, "leaf");
     let smaller = smaller_text(windows, problem);
-    let evidence = format!("{word}, problem {digest}, {leaves} leaves accepted");
+    let evidence = format!("{word}, problem {digest}, {leaves} accepted");
     let window = windows_text(windows);
 
     format!("ABSENT in {window}: no solution ({evidence}){smaller}\n")

@@ -8,6 +8,7 @@ use super::common::{CliError, aside, exit, print, require_count, require_threads
 use super::job::Job;
 use super::output::{Output, make};
 use crate::picture::{PROFILES, ProfileSeries, profile_picture};
+use mceip_engine::report::counted;
 use mceip_engine::run::Watch;
 use mceip_model::file::{FRACTIONS, write_problem, write_problem_beside_matrices};
 use mceip_testkit::conform::{
@@ -435,7 +436,8 @@ fn export(args: &Args, folder: &Path, groups: &[Group]) -> Result<u8, CliError> 
     }
     job.end();
 
-    print(&format!("{count} cases in {}\n", folder.display()))?;
+    let cases = counted(count, "case");
+    print(&format!("{cases} in {}\n", folder.display()))?;
     if fractions > 0 {
         aside(&format!(
             "mceip: {fractions} of the matrices have fractions p/q: `mceip` reads them, \
@@ -512,9 +514,9 @@ fn write(folder: &Path, files: &[(String, String)]) -> Result<u8, CliError> {
         bytes += text.len();
     }
 
-    let count = files.len();
+    let count = counted(files.len(), "file");
     let place = folder.display();
-    print(&format!("{count} files, {bytes} bytes, in {place}\n"))?;
+    print(&format!("{count}, {bytes} bytes, in {place}\n"))?;
 
     Ok(exit::DONE)
 }

@@ -10,7 +10,7 @@
 
 use super::common::{CliError, exit, friction_of, positive_number, print, text};
 use super::output::Output;
-use crate::say::counted;
+use mceip_engine::report::counted;
 use mceip_exact::{Rational, Sparse, to_f64};
 use mceip_model::file::{
     LoadsFile, read_matrix_market, read_particles, read_printed_radius, write_loads, write_problem,

@@ -6,7 +6,7 @@
 
 use super::common::{CliError, exit, print_answer, require_count};
 use super::job::Job;
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, counted};
 use mceip_testkit::floors::{Covered, Shortfall, floor};
 use mceip_testkit::verified::{VerifiedChecker, VerifiedCounts};
 use mceip_testkit::{BlockReport, FamilyReport, Verification, verify};
@@ -177,10 +177,10 @@ fn details_of(family: &FamilyReport) -> String {
         .map(|(corner, count)| format!("{} {count}", corner.word()))
         .collect();
     let mut out = format!(
-        "{}: {}; {} pivots\n",
+        "{}: {}; {}\n",
         family.name,
         corners.join(", "),
-        family.tally.pivots
+        counted(family.tally.pivots, "pivot")
     );
     for point in &family.uncertified {
         out += &format!("  uncertified: {point}\n");
@@ -202,7 +202,8 @@ fn block_text(state: &BlockReport) -> String {
 
     let unfound = state.unfound;
     if unfound > 0 {
-        out += &format!("  DISAGREEMENT: {unfound} solutions of the complete set were not found\n");
+        let unfound = counted(unfound, "solution");
+        out += &format!("  DISAGREEMENT: not found: {unfound} of the complete set\n");
     }
 
     out
@@ -243,16 +244,17 @@ fn verdict(v: &Verification) -> String {
     let seed = v.seed;
     let tallies = v.families.iter().map(|family| &family.tally);
     let instances: u64 = tallies.clone().map(|tally| tally.instances).sum();
+    let instances = counted(instances, "instance");
     let accepted: u64 = tallies.map(|tally| tally.accepted).sum();
+    let accepted = counted(accepted, "accepted certificate");
 
     match (v.disagreements(), v.interrupted) {
-        (0, false) => format!(
-            "VERIFIED: no disagreement in {instances} instances and {accepted} accepted \
-             certificates (seed {seed})"
-        ),
-        (0, true) => format!(
-            "INTERRUPTED: no disagreement in the {instances} instances treated (seed {seed})"
-        ),
+        (0, false) => {
+            format!("VERIFIED: no disagreement in {instances} and {accepted} (seed {seed})")
+        }
+        (0, true) => {
+            format!("INTERRUPTED: no disagreement in the {instances} treated (seed {seed})")
+        }
         (n, _) => format!("DISAGREEMENT: {n} (seed {seed})"),
     }
 }

@@ -9,7 +9,7 @@ use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedCover, OpenRegion, Proved, SolutionFamily};
 use mceip_engine::analysis::ProofCertificate;
 use mceip_engine::reduction::reversed;
-use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
+use mceip_engine::report::{Claimed, Listed, Report, counted, solutions_json};
 use mceip_engine::run::{Keeper, Kept, Watch};
 use mceip_engine::search::complete::continua::joined;
 use mceip_engine::search::complete::{
@@ -142,8 +142,8 @@ impl SolutionSet {
     pub fn to_json(&self) -> Value {
         let cover = &self.cover;
         let evidence = format!(
-            "certificate of a complete set, {} leaves, {} open, accepted by the checker",
-            cover.leaves,
+            "certificate of a complete set, {}, {} open, accepted by the checker",
+            counted(cover.leaves, "leaf"),
             cover.open.len()
         );
 

@@ -1,7 +1,8 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
-use super::{counted, range_text, slip_text};
+use super::{range_text, slip_text};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
+use mceip_engine::report::counted;
 use mceip_engine::search::complete::continua::joined;
 use mceip_exact::{Interval, enclosing_decimals};
 use mceip_model::{Body, Problem};
@@ -35,7 +36,8 @@ pub(crate) fn text(problem: &Problem, window: &str, cover: &AcceptedCover) -> St
 
     let more = cover.open.len().saturating_sub(SHOWN);
     if more > 0 {
-        out += &format!("open: {more} more regions (see the certificate)\n");
+        let more = counted(more, "more region");
+        out += &format!("open: {more} (see the certificate)\n");
     }
 
     out + &verdict_text(problem, window, cover)
@@ -43,7 +45,7 @@ pub(crate) fn text(problem: &Problem, window: &str, cover: &AcceptedCover) -> St
 
 /// The last line: is the set complete, and how large is it?
 fn verdict_text(problem: &Problem, window: &str, cover: &AcceptedCover) -> String {
-    let leaves = cover.leaves;
+    let leaves = counted(cover.leaves, "leaf");
     let open = cover.open.len();
     let count = count_text(cover);
     if open > 0 {
@@ -59,7 +61,7 @@ fn verdict_text(problem: &Problem, window: &str, cover: &AcceptedCover) -> Strin
         format!("{count} in {window}, and no other")
     };
 
-    format!("COMPLETE: {set}; {leaves} leaves, accepted by the checker\n")
+    format!("COMPLETE: {set}; {leaves}, accepted by the checker\n")
 }
 
 /// What to do where a search over all values of a quadratic problem has gone out to infinity in
@@ -84,19 +86,13 @@ fn remedy_text(problem: &Problem, cover: &AcceptedCover) -> String {
     )
 }
 
-/// "2 solutions and 1 families of them".
+/// "2 solutions and 1 family of them".
 fn count_text(cover: &AcceptedCover) -> String {
-    let mut count = match cover.solutions.len() {
-        1 => "1 solution".into(),
-        n => format!("{n} solutions"),
-    };
+    let solutions = counted(cover.solutions.len(), "solution");
     match joined(&cover.families).len() {
-        0 => {}
-        1 => count += " and 1 family of them",
-        n => count += &format!(" and {n} families of them"),
+        0 => solutions,
+        n => format!("{solutions} and {} of them", counted(n, "family")),
     }
-
-    count
 }
 
 fn open_text(word: &str, region: &OpenRegion) -> String {
@@ -170,9 +166,8 @@ pub(crate) fn text_at_infinity(cover: &AcceptedCover) -> String {
     }
 
     let verdict = verdict_at_infinity(cover);
-    let leaves = cover.leaves;
-    out +=
-        &format!("{verdict}; {leaves} leaves, accepted by the checker for the reversed problem\n");
+    let leaves = counted(cover.leaves, "leaf");
+    out += &format!("{verdict}; {leaves}, accepted by the checker for the reversed problem\n");
 
     out
 }

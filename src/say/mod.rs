@@ -76,13 +76,3 @@ pub(crate) fn slip_text(problem: &Problem, support: &[usize]) -> String {
         _ => numbers,
     }
 }
-
-/// "1 warning", "2 warnings", "2 stretches".
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    let plural = match noun {
-        _ if count == 1 => "",
-        noun if noun.ends_with("ch") => "es",
-        _ => "s",
-    };
-    format!("{count} {noun}{plural}")
-}

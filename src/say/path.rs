@@ -2,9 +2,9 @@
 //! stretches for programs.
 
 use super::stretches::table_of;
-use super::{counted, number_text, warnings_text};
+use super::{number_text, warnings_text};
 use crate::front::LoadPath;
-use mceip_engine::report::fixed_decimals;
+use mceip_engine::report::{counted, fixed_decimals};
 use mceip_exact::to_f64;
 use mceip_model::{ContactState, Particle};
 use mceip_path::{Bound, Equilibrium, Event, LoadingPath, LoadingPathEnd, RateSolutions, Stretch};

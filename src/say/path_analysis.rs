@@ -1,11 +1,11 @@
 //! The analysis of the states on a loading path in words, as a table and as JSON.
 
+use super::number_text;
 use super::own_critical::{bracket_text, held_json};
 use super::path::{amount_text, not_carried_text};
-use super::{counted, number_text};
 use crate::front::{PathAnalysis, StateAnalysis};
 use mceip_engine::analysis::Verdict;
-use mceip_engine::report::{Table, six_digits};
+use mceip_engine::report::{Table, counted, six_digits};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
 use serde_json::{Value, json};
 

@@ -1,7 +1,7 @@
 //! What a search from many starts was, in words.
 
-use super::counted;
 use mceip_engine::multistart::MultistartFound;
+use mceip_engine::report::counted;
 
 /// What the search was and how it went.
 pub(crate) fn evidence(found: &MultistartFound, certified: usize, seed: u64) -> String {
@@ -12,18 +12,18 @@ pub(crate) fn evidence(found: &MultistartFound, certified: usize, seed: u64) -> 
     };
 
     let continua = if found.on_continua > 0 {
-        format!("{} more points of continua, ", found.on_continua)
+        format!("{} of continua, ", counted(found.on_continua, "more point"))
     } else {
         String::new()
     };
 
     format!(
-        "{certified} certified found in {search}{} (seed {seed}, {} pivots, {} factorisations, \
-         {} repeats, {continua}{} outside the window, endings {:?}); completeness unknown",
+        "{certified} certified found in {search}{} (seed {seed}, {}, {}, {}, \
+         {continua}{} outside the window, endings {:?}); completeness unknown",
         counted(found.runs, "run"),
-        found.pivots,
-        found.factorisations,
-        found.repeated,
+        counted(found.pivots, "pivot"),
+        counted(found.factorisations, "factorisation"),
+        counted(found.repeated, "repeat"),
         found.outside,
         found.terminations
     )

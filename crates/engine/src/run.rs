@@ -5,6 +5,7 @@
 //! [`Watch::report`] with its [`Progress`] after each step.
 
 use crate::analysis::ProofCertificate;
+use crate::report::counted;
 use mceip_model::Problem;
 use std::fmt;
 use std::sync::Arc;
@@ -121,8 +122,7 @@ impl fmt::Display for Progress<'_> {
         }
 
         match self.solutions {
-            Some(1) => write!(f, ", 1 solution"),
-            Some(count) => write!(f, ", {count} solutions"),
+            Some(count) => write!(f, ", {}", counted(count, "solution")),
             None => Ok(()),
         }
     }

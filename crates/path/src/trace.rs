@@ -173,8 +173,8 @@ pub(super) fn trace(
     {
         return Err(PathError::Steps {
             expected: format!(
-                "continuations of the {} stretches of this path, from 0",
-                stretches.len()
+                "continuations of stretches 0 to {} of this path",
+                stretches.len().saturating_sub(1)
             ),
             got: format!("one of stretch {stretch}"),
         });

@@ -10,7 +10,7 @@ use crate::cli::job::Job;
 use crate::cli::output::{Output, make_writable};
 use mceip_engine::multistart::{AllSlip, all_slip};
 use mceip_engine::reduction::{CondensationResidual, SparseCondensation, SparseCondensed};
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, counted};
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{CompleteOptions, complete};
 use mceip_exact::{Sparse, from_f64};
@@ -234,7 +234,8 @@ fn complete_text(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
     if open == 0 {
         format!("{count}, proved ({seconds:.1} s)")
     } else {
-        format!("{count}, {open} regions open ({seconds:.1} s)")
+        let open = counted(open, "region");
+        format!("{count}, {open} open ({seconds:.1} s)")
     }
 }
 

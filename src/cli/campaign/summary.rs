@@ -2,7 +2,7 @@
 //! equal runs are equal.
 
 use crate::cli::verify::{coverage_text, covered_json};
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, counted};
 use mceip_testkit::Tally;
 use mceip_testkit::campaign::{CaseFindings, Replay, State};
 use serde_json::{Value, json};
@@ -35,8 +35,8 @@ pub(super) fn text_of(state: &State) -> String {
     let mut out = format!("{table}\n{coverage}\n");
     for (name, tally) in state.families.iter().zip(&state.tallies) {
         let corners = corners_of(tally);
-        let pivots = tally.pivots;
-        out += &format!("{name}: corners reached: {corners}; {pivots} pivots\n");
+        let pivots = counted(tally.pivots, "pivot");
+        out += &format!("{name}: corners reached: {corners}; {pivots}\n");
         for disagreement in &tally.disagreements {
             out += &format!("  DISAGREEMENT {disagreement}\n");
         }
@@ -90,7 +90,7 @@ fn row(name: &str, t: &Tally) -> Vec<String> {
 
 fn verdict(state: &State) -> String {
     let seed = state.seed;
-    let instances = state.instances();
+    let instances = counted(state.instances(), "instance");
     let (index, count) = state.shard;
     let part = match count {
         1 => String::new(),
@@ -98,8 +98,8 @@ fn verdict(state: &State) -> String {
     };
 
     match state.disagreements() {
-        0 => format!("CLEAN: no disagreement in {instances} instances (seed {seed}{part})"),
-        wrong => format!("DISAGREEMENT: {wrong} in {instances} instances (seed {seed}{part})"),
+        0 => format!("CLEAN: no disagreement in {instances} (seed {seed}{part})"),
+        wrong => format!("DISAGREEMENT: {wrong} in {instances} (seed {seed}{part})"),
     }
 }
 
@@ -150,8 +150,8 @@ pub(super) fn replay_text(replay: &Replay, judged: &CaseFindings) -> String {
     }
 
     if judged.findings.is_empty() {
-        let solutions = judged.report.oracle;
-        out += &format!("CLEAN: {solutions} solutions, every engine agrees\n");
+        let solutions = counted(judged.report.oracle, "solution");
+        out += &format!("CLEAN: {solutions}, every engine agrees\n");
     }
 
     out

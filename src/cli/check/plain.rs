@@ -3,6 +3,7 @@
 use super::super::common::{CliError, exit, print, text};
 use super::super::job::decided;
 use mceip_engine::lcp::{judge, read_mcp, read_solution};
+use mceip_engine::report::counted;
 use std::path::Path;
 
 /// The verdict on the solution file `certificate` of the plain problem `source`, read from `path`.
@@ -18,9 +19,8 @@ pub(in super::super) fn verdict(
     match decided(|| judge(&problem, &claimed)) {
         Ok(count) => {
             let digest = problem.sha256();
-            print(&format!(
-                "ACCEPTED: {count} solution(s) of problem {digest}\n"
-            ))?;
+            let solutions = counted(count, "solution");
+            print(&format!("ACCEPTED: {solutions} of problem {digest}\n"))?;
             Ok(exit::DONE)
         }
         Err(rejected) => {

@@ -17,13 +17,13 @@ use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, PathDrawing, Picture, ReportPage,
     Section, Threshold, ThresholdColumn, branch_picture, path_picture, threshold_picture,
 };
-use crate::say::counted;
 use crate::say::path::{
     LETTERS, amount_text, causes_text, continuations_text, doubts_text, of_which_body,
 };
 use crate::say::path_analysis::{HEADER, rows_of, verdict_text};
 use crate::say::stretches::stretch_cells;
 use crate::{LoadPath, OwnCritical, PathAnalysis};
+use mceip_engine::report::counted;
 use mceip_engine::run::Watch;
 use mceip_exact::{Interval, enclosing_decimals, to_f64, upper_decimal};
 use mceip_model::{Coordinates, ModelError, System};
@@ -411,7 +411,7 @@ impl Shown<'_> {
         let set = &state.thresholds;
         let values = set.values("\u{3bc}", 12, IN_A_REPORT);
         let verdict = set.verdict();
-        let leaves = set.leaves;
+        let leaves = counted(set.leaves, "leaf");
         let mut rows = vec![
             row(
                 "Load",
@@ -423,7 +423,7 @@ impl Shown<'_> {
             ),
             row(
                 "MCEIP-\u{3bc} in [0, \u{221e})",
-                format!("{values} ({verdict}, {leaves} leaves)"),
+                format!("{values} ({verdict}, {leaves})"),
             ),
             row(
                 "Sufficient condition (17)-(18) at \u{3bb} = 0",

@@ -7,12 +7,11 @@
 
 use crate::LoadPath;
 use crate::cli::common::CliError;
-use crate::say::counted;
 use crate::say::cover::{family_size, family_values};
 use mceip_check::{AcceptedClaim, SolutionFamily};
 use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary};
 use mceip_engine::reduction::{SparseCondensation, mode};
-use mceip_engine::report::{Table, six_digits};
+use mceip_engine::report::{Table, counted, six_digits};
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::continua::joined;
 use mceip_engine::search::complete::{CompleteOptions, Completed, complete};
@@ -315,7 +314,7 @@ impl ProvedSet {
         }
         let more = self.families.len().saturating_sub(listed);
         if more > 0 {
-            all.push(format!("{more} more families"));
+            all.push(counted(more, "more family"));
         }
 
         all.join("; ")

@@ -1,7 +1,7 @@
 //! What `mceip simulate` says: sentences, `mceip-motion/1`, and the picture.
 
 use crate::picture::{MotionSeries, Picture, Spread, motion_picture};
-use mceip_engine::report::{Table, six_digits};
+use mceip_engine::report::{Table, counted, six_digits};
 use mceip_exact::{Interval, enclosing_decimals};
 use mceip_motion::{
     AfterImpulse, AmplitudeRange, Growth, GrowthAgreement, GrowthPoint, MotionClass, StepSolutions,
@@ -79,8 +79,8 @@ pub(super) fn text(simulation: &Simulation) -> String {
         out += "Whether there are other modes is open: the search for them is not complete.\n";
     }
     if simulation.families > 0 {
-        let families = simulation.families;
-        out += &format!("{families} families of modes exist beside them and are not followed.\n");
+        let families = counted(simulation.families, "family");
+        out += &format!("Beside them, and not followed: {families} of modes.\n");
     }
 
     if simulation.unknown > 0 {
@@ -206,9 +206,9 @@ fn range_text(range: Option<&AmplitudeRange>, duration: f64) -> String {
 fn impulse_text(impulse: &SimulatedImpulse) -> String {
     let SimulatedImpulse { seed, motion } = impulse;
     let class = class_text(&motion.fine);
-    let changes = motion.fine.changes;
+    let changes = counted(motion.fine.changes, "time");
     let mut out =
-        format!("Impulse {seed}: {class}; the set of slipping particles changes {changes} times\n");
+        format!("Impulse {seed}: {class}; the set of slipping particles changes {changes}\n");
     if !motion.is_resolved() {
         let coarse = class_text(&motion.coarse);
         out += &format!("  NOT RESOLVED: in steps twice as long {coarse}; take more --steps\n");

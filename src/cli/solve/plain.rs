@@ -7,9 +7,9 @@ use super::super::output::Output;
 use super::args::Args;
 use super::search::plain_search_of;
 use super::trace;
-use crate::say::counted;
 use mceip_engine::lcp::{ExactMcp, PlainFound, read_mcp, search, write_solution};
 use mceip_engine::multistart::{SearchError, trace_outcome};
+use mceip_engine::report::counted;
 use mceip_exact::{Rational, to_f64};
 use serde_json::json;
 use std::path::Path;
@@ -73,6 +73,8 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
 /// What the search was and how it went.
 fn evidence(found: &PlainFound) -> String {
     let (pivots, factorisations) = found.counters;
+    let pivots = counted(pivots, "pivot");
+    let factorisations = counted(factorisations, "factorisation");
     let runs = counted(found.runs, "run");
     let curves = match found.curves {
         0 => String::new(),
@@ -80,7 +82,7 @@ fn evidence(found: &PlainFound) -> String {
     };
 
     format!(
-        "{} certified found in {runs}{curves} ({pivots} pivots, {factorisations} factorisations, \
+        "{} certified found in {runs}{curves} ({pivots}, {factorisations}, \
          endings of the runs {:?}); completeness unknown",
         found.certified.len(),
         found.terminations

@@ -7,6 +7,7 @@ use super::search::{plain_search_of, search_of};
 use crate::{Found, Problem};
 use mceip_engine::lcp;
 use mceip_engine::multistart::{self, MAX_STARTS, Search, SearchError};
+use mceip_engine::report::counted;
 use mceip_engine::run::Watch;
 use mceip_model::file::{from_json_of, read_problem, require_format, to_json_of};
 use serde::{Deserialize, Serialize};
@@ -131,9 +132,9 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     job.end();
 
     if again.trace == recorded {
-        let runs = again.runs;
+        let runs = counted(again.runs, "run");
         let bytes = recorded.len();
-        print(&format!("IDENTICAL: {runs} runs, {bytes} bytes\n"))?;
+        print(&format!("IDENTICAL: {runs}, {bytes} bytes\n"))?;
         return Ok(exit::DONE);
     }
 

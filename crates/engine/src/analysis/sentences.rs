@@ -16,7 +16,7 @@ use super::modes::{Mode, ZeroMode};
 use super::ranges::Range;
 use super::stability::Stability;
 use super::threshold::StaticThreshold;
-use crate::report::{short, six_digits};
+use crate::report::{counted, short, six_digits};
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{
     Interval, Rational, enclosing_decimals, from_f64, nearest_decimal, upper_decimal,
@@ -108,10 +108,6 @@ fn open_text(name: &str, open: &[OpenRegion]) -> String {
     };
 
     named(&open.iter().map(region).collect::<Vec<_>>())
-}
-
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
 }
 
 /// For which mu a matrix is `definite`; `relation` is ">=" where it is not so at the end itself,
@@ -245,12 +241,12 @@ fn flutter_text(flutter: &Flutter) -> String {
     format!(
         "Flutter of steady sliding: if the body were sliding steadily in these contact states, \
          every slip particle against its reaction, it would oscillate with growing amplitude \
-         {}{more}: the all-slip pencil at this mu has {count} complex pair{} lambda^2. At rest \
+         {}{more}: the all-slip pencil at this mu has {} lambda^2. At rest \
          this says nothing about the equilibrium: a particle there slips one way only.{onset} \
          Damping, which is left out here, may silence slow growth, and pairs at the highest \
          frequencies may be noise of the mesh: compare two meshes.",
         named.join(", "),
-        plural(count)
+        counted(count, "complex pair")
     )
 }
 
@@ -347,10 +343,13 @@ impl Analysis {
                 .into();
         }
 
-        let count = divergence.modes.len();
+        let count = counted(divergence.modes.len(), "solution");
         let families = match divergence.families {
             0 => String::new(),
-            families => format!(" and {families} families of solutions (cones or ranges)"),
+            families => format!(
+                " and {} of solutions (cones or ranges)",
+                counted(families, "family")
+            ),
         };
 
         let others = if divergence.open.is_empty() {
@@ -360,11 +359,7 @@ impl Analysis {
             format!(", others undecided for {open}")
         };
 
-        format!(
-            "divergence instability of the form (8) is PRESENT: {count} \
-             solution{}{families}{others}.",
-            plural(count)
-        )
+        format!("divergence instability of the form (8) is PRESENT: {count}{families}{others}.")
     }
 
     fn say_modes(&self) -> Vec<Sentence> {

@@ -12,7 +12,7 @@ use super::report::Reported;
 use crate::candidate::{BACKWARD_ERROR_DIGITS, Candidate, scaled};
 use crate::certify::{Certifier, certify};
 use crate::multistart::{exact_value, support};
-use crate::report::negated;
+use crate::report::{counted, negated};
 use crate::signs::{BothSigns, OfSign};
 use crate::tolerance::{DISTANCE_ROUNDING, X_RADIUS};
 use mceip_check::certificate::{Claim, EnclosedSolution};
@@ -99,7 +99,8 @@ pub enum Refutation {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "no solution with value in [{lo:?}, {hi:?}] has x within {X_RADIUS:e} of this one (all \
-     {supports} supports examined exactly, {})",
+     {} examined exactly, {})",
+    counted(*supports, "support"),
     others_text(*others)
 )]
 pub struct Examined {
@@ -425,7 +426,7 @@ fn digits_text(error: f64) -> String {
     if digits >= DIGITS_OF_DOUBLES {
         format!("{DIGITS_OF_DOUBLES} or more digits")
     } else {
-        format!("{digits} digits")
+        counted(digits, "digit")
     }
 }
 
@@ -488,7 +489,7 @@ mod tests {
 
     #[test]
     fn digits_are_those_that_agree() {
-        assert_eq!(digits_text(0.05), "1 digits");
+        assert_eq!(digits_text(0.05), "1 digit");
         assert_eq!(digits_text(1e-3), "3 digits");
         assert_eq!(digits_text(0.9e-6), "6 digits");
         assert_eq!(digits_text(1.1e-6), "5 digits");

@@ -7,6 +7,7 @@
 use super::listed::{DIGITS, Listed};
 use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
+use crate::report::counted;
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Rational, enclosing_decimals, nearest_decimal, parse,
@@ -326,9 +327,8 @@ pub fn solutions_text(report: &Report<'_>) -> String {
         out += &degenerate(report, enumeration);
     }
 
-    let count = report.solutions.len();
-    let plural = if count == 1 { "" } else { "s" };
-    out += &format!("{count} solution{plural}: {}\n", report.evidence);
+    let count = counted(report.solutions.len(), "solution");
+    out += &format!("{count}: {}\n", report.evidence);
     out
 }
 

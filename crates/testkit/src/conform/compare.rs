@@ -14,6 +14,7 @@ use super::judge::Label;
 use super::pack::of_word;
 use super::summary::RUN_FORMAT;
 use crate::error::TestkitError;
+use mceip_engine::report::counted;
 use mceip_model::file::from_json_of;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -172,8 +173,8 @@ impl ConformComparison {
                 return Err(refuse(expected, run.pack.clone()));
             }
             if cases_of(run) != cases_of(first) {
-                let count = first.records.len();
-                let expected = format!("the {count} cases of {}", first.name);
+                let count = counted(first.records.len(), "case");
+                let expected = format!("the {count} of {}", first.name);
                 return Err(refuse(expected, differing_case(run, first)));
             }
             if run.options != first.options {
@@ -283,8 +284,8 @@ impl ConformComparison {
         let version = first.map_or("", |run| &run.version);
         let pack = first.map_or("", |run| &run.pack);
         format!(
-            "{} cases of the pack {pack}, mceip {version}",
-            self.cases().len()
+            "{} of the pack {pack}, mceip {version}",
+            counted(self.cases().len(), "case")
         )
     }
 
@@ -411,7 +412,7 @@ fn differing_case(run: &ConformRun, first: &ConformRun) -> String {
             return format!("another problem as {} (--as-pencil?)", got.0);
         }
     }
-    format!("{} cases", run.records.len())
+    counted(run.records.len(), "case")
 }
 
 /// Text for a cell of a LaTeX table.

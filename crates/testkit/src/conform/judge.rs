@@ -28,6 +28,7 @@ use mceip_engine::foreign::{
     negative_component,
 };
 use mceip_engine::multistart::{exact_value, integer_x, same};
+use mceip_engine::report::counted;
 use mceip_engine::signs::{BothSigns, OfSign};
 use mceip_engine::tolerance::VALUE_RADIUS;
 use mceip_exact::{Algebraic, Poly, Rational, from_f64, nearest_decimal, to_decimal};
@@ -258,8 +259,8 @@ impl MetParts<'_> {
 
         for (k, solution) in report.solutions.iter().enumerate() {
             if is_over() {
-                let count = report.solutions.len();
-                let why = format!("judged {k} of {count} solutions in the time of the case");
+                let count = counted(report.solutions.len(), "solution");
+                let why = format!("judged {k} of {count} in the time of the case");
                 return Err(Judgement::new(Label::Undecided, why));
             }
 

@@ -9,7 +9,7 @@ use super::flag::Flag;
 use super::judge::Label;
 use super::pack::PackName;
 use super::run::CaseOutcome;
-use mceip_engine::report::Table;
+use mceip_engine::report::{Table, counted};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -157,7 +157,7 @@ impl Summary {
         let parts = Label::ALL.iter();
         let parts = parts.map(|label| format!("{} {}", count(label), label.word()));
         let parts: Vec<String> = parts.collect();
-        format!("{} cases: {}", self.cases, parts.join(", "))
+        format!("{}: {}", counted(self.cases, "case"), parts.join(", "))
     }
 
     /// A table for people, the first failures, one line of verdict.
