@@ -95,14 +95,17 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 continue;
             }
         };
-        match (Sought::of(&signs, &reported.candidate), &reflected) {
-            (Sought::Reflected, Some(reflected)) => reflected.judge(&mut negative, index, reported),
-            (Sought::Both(reasons), Some(reflected)) => {
+        let Some(reflected) = &reflected else {
+            own.judge(&mut judged, index, reported);
+            continue;
+        };
+        match Sought::of(&signs, [&own, reflected], &reported.candidate) {
+            Sought::Own => own.judge(&mut judged, index, reported),
+            Sought::Reflected => reflected.judge(&mut negative, index, reported),
+            Sought::Both(reasons) => {
                 let of_sides = [&mut judged, &mut negative];
                 judge_on_both([&own, reflected], of_sides, index, reported, &reasons)?;
             }
-            // Without a reflection every point is looked for on the problem's own side.
-            (Sought::Own, _) | (_, None) => own.judge(&mut judged, index, reported),
         }
     }
     judged.leave_out_claimed();
@@ -150,7 +153,11 @@ enum Sought {
 }
 
 impl Sought {
-    fn of(signs: &BothSigns, candidate: &Candidate) -> Sought {
+    fn of(
+        signs: &BothSigns,
+        [own, reflected]: [&Certifying<'_>; 2],
+        candidate: &Candidate,
+    ) -> Sought {
         let on = |side: &OfSign| {
             if side.problem.is_reflected() {
                 Sought::Reflected
@@ -159,8 +166,12 @@ impl Sought {
             }
         };
         let certify = |side: &OfSign| {
-            let certifier = Certifier::new(&side.problem, &side.reduced.pencil);
-            certifier.certify(&side.candidate(candidate))
+            let by = if side.problem.is_reflected() {
+                reflected
+            } else {
+                own
+            };
+            by.certifier.certify(&side.candidate(candidate))
         };
 
         let (likelier, other) = signs.near(candidate);
