@@ -173,10 +173,10 @@ pub(super) fn trace(
     {
         return Err(PathError::Steps {
             expected: format!(
-                "continuations of stretches 0 to {} of this path",
+                "a stretch of this path, numbered from 0 to {}",
                 stretches.len().saturating_sub(1)
             ),
-            got: format!("one of stretch {stretch}"),
+            got: format!("a continuation of stretch {stretch}"),
         });
     }
 
