@@ -2,6 +2,7 @@
 //!
 //! Exact numbers are text ("p/q"), doubles are numbers.
 
+use mceip::analysis::ProofFile;
 use mceip::{
     Accepted, AcceptedClaim, Analysis, Certificate, Certified, Found, Interval, ModelError,
     OpenRegion, RealWindow, Solution, SolutionFamily, SolutionSet, Uncertified,
@@ -10,6 +11,7 @@ use mceip_check::certificate::{
     CERTIFICATE_FORMAT, CRITICAL_FORMAT, PRESENCE_FORMAT, STABILITY_FORMAT,
 };
 use mceip_check::{AcceptedAbsence, AcceptedPresence, AcceptedStability};
+use mceip_model::sha256;
 use serde_json::{Value, json};
 
 pub(crate) fn found(found: &Found) -> Value {
@@ -51,18 +53,23 @@ pub(crate) fn certified(certified: &Certified) -> Value {
 
 /// `mceip-analysis/1` with the proofs: problem and certificate of each.
 pub(crate) fn analysis(analysis: &Analysis) -> Result<Value, ModelError> {
+    let mut files = Vec::new();
     let mut proofs = Vec::new();
     for proof in &analysis.proofs {
         let problem = mceip::Problem::from(proof.problem.clone());
+        let text = proof.certificate.file()?;
+        files.push(ProofFile {
+            sha256: sha256(&text),
+            path: Some(proof.name.clone()),
+        });
         proofs.push(json!({
             "name": proof.name,
             "problem": text_as_json(&problem.to_json()),
-            "certificate": text_as_json(&proof.certificate.file()?),
+            "certificate": text_as_json(&text),
         }));
     }
 
-    let paths: Vec<String> = analysis.proofs.iter().map(|p| p.name.clone()).collect();
-    Ok(json!({ "answer": analysis.to_json(&paths), "proofs": proofs }))
+    Ok(json!({ "answer": analysis.to_json(&files), "proofs": proofs }))
 }
 
 /// `windows` are those of the certificate.

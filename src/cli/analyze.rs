@@ -17,14 +17,15 @@ use super::question::load_system;
 use crate::Analyze;
 use crate::say::{number_text, warnings_text};
 use mceip_engine::analysis::{
-    Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, ProofCertificate, Verdict,
+    Analysis, AnalysisError, AnalysisOptions, Evidence, MAX_SAMPLES, ProofCertificate, ProofFile,
+    Verdict,
 };
 use mceip_engine::lean::LeanError;
-use mceip_engine::run::{Kept, Watch};
+use mceip_engine::run::{Kept, Watch, in_threads};
 use mceip_engine::tolerance::WIDE_CRITICAL_GAP;
 use mceip_exact::Rational;
 use mceip_model::file::SystemFile;
-use mceip_model::{System, Window};
+use mceip_model::{System, Window, sha256};
 use num_traits::Signed;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -129,16 +130,23 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
 
     // What cannot be written takes nothing else along.
-    let written = keeping.map_or(Ok(Vec::new()), |proofs| {
-        job.watched(|watch| proofs.write_all(&analysis, watch))
-    });
+    let written = keeping.map(|proofs| job.watched(|watch| proofs.write_all(&analysis, watch)));
+    let are_named = args.json || report.is_some();
+    let files = match written {
+        Some(files) => files,
+        None if are_named => analysis.unwritten_files().map_err(CliError::from),
+        None => Ok(Vec::new()),
+    };
     job.end();
-    let paths = written.as_deref().unwrap_or_default();
+    let (files, written) = match files {
+        Ok(files) => (files, Ok(())),
+        Err(e) => (Vec::new(), Err(e)),
+    };
     let drawn = page::Drawn {
         system,
         coordinates: file.coordinates.as_ref(),
         branches,
-        paths,
+        files: &files,
         date: SystemTime::now(),
     };
     let page = report.map_or(Ok(()), |output| {
@@ -152,8 +160,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
     print_answer(
         args.json,
-        || analysis.to_json(paths),
-        || text_of(&analysis, paths, args),
+        || analysis.to_json(&files),
+        || text_of(&analysis, &files, args),
     )?;
     written.and(page).and(pictures)?;
 
@@ -218,8 +226,9 @@ struct Proofs {
     folder: Folder,
     /// Are they written without what can be made anew?
     is_lean: bool,
+    threads: Option<usize>,
     /// The proofs written so far, by name.
-    written: Mutex<BTreeMap<String, ProofCertificate>>,
+    written: Mutex<BTreeMap<String, WrittenProof>>,
 }
 
 impl Proofs {
@@ -228,14 +237,29 @@ impl Proofs {
         Ok(Proofs {
             folder: Folder::prepare("certificates", folder, &[&args.file])?,
             is_lean: args.lean,
+            threads: args.threads,
             written: Mutex::default(),
         })
     }
 
-    /// Writes a proof; in full where an interrupt leaves no time for its lean form.
+    /// Writes a proof during the run and remembers its digest.
     fn keep(&self, kept: &Kept<'_>, watch: &Watch<'_>) -> Result<(), CliError> {
+        let written = WrittenProof {
+            certificate: kept.certificate.clone(),
+            sha256: self.write(kept, watch)?,
+        };
+        self.written().insert(kept.name.to_owned(), written);
+        Ok(())
+    }
+
+    /// Writes a proof; in full where an interrupt leaves no time for its lean form. The SHA-256 of
+    /// the certificate's file.
+    fn write(&self, kept: &Kept<'_>, watch: &Watch<'_>) -> Result<String, CliError> {
         let lean = if self.is_lean {
-            match kept.certificate.lean_file(kept.problem, watch) {
+            let made = in_threads(self.threads, || {
+                kept.certificate.lean_file(kept.problem, watch)
+            });
+            match made {
                 Err(LeanError::Interrupted) => None,
                 shortened => shortened?,
             }
@@ -248,48 +272,61 @@ impl Proofs {
             None => kept.certificate.file()?,
         };
         self.folder.write_proof(kept.name, kept.problem, &text)?;
-        let name = kept.name.to_owned();
-        self.written().insert(name, kept.certificate.clone());
-        Ok(())
+        Ok(sha256(&text))
     }
 
     /// Writes all proofs of the analysis, and removes those that others have taken the place of;
-    /// the certificates' paths.
-    fn write_all(&self, analysis: &Analysis, watch: &Watch<'_>) -> Result<Vec<String>, CliError> {
+    /// the certificates' files.
+    fn write_all(
+        &self,
+        analysis: &Analysis,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<ProofFile>, CliError> {
         let mut superseded = std::mem::take(&mut *self.written());
-        let mut paths = Vec::new();
+        let mut files = Vec::new();
         for proof in &analysis.proofs {
             let written = superseded.remove(&proof.name);
-            let is_written = written.is_some_and(|written| written.is_clone_of(&proof.certificate));
-            if !is_written {
-                self.keep(
+            let written = written.filter(|w| w.certificate.is_clone_of(&proof.certificate));
+            let sha256 = match written {
+                Some(written) => written.sha256,
+                None => self.write(
                     &Kept {
                         name: &proof.name,
                         problem: &proof.problem,
                         certificate: &proof.certificate,
                     },
                     watch,
-                )?;
-            }
+                )?,
+            };
             let path = self.folder.certificate_path(&proof.name);
-            paths.push(path.display().to_string());
+            files.push(ProofFile {
+                sha256,
+                path: Some(path.display().to_string()),
+            });
         }
 
         for name in superseded.into_keys() {
             self.folder.remove_proof(&name);
         }
 
-        Ok(paths)
+        Ok(files)
     }
 
     /// A thread that panicked with the lock leaves the set whole.
-    fn written(&self) -> MutexGuard<'_, BTreeMap<String, ProofCertificate>> {
+    fn written(&self) -> MutexGuard<'_, BTreeMap<String, WrittenProof>> {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
+/// A proof that is in the folder.
+struct WrittenProof {
+    certificate: ProofCertificate,
+    /// Of the certificate's file.
+    sha256: String,
+}
+
 /// What to run next.
-fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
+fn next_step(analysis: &Analysis, files: &[ProofFile], args: &Args) -> String {
     let file = shell_word(&args.file);
     if analysis.interrupted {
         return "Next: run it again, it was interrupted.".into();
@@ -315,7 +352,7 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
         (_, Evidence::Certificate(proof), _) => *proof,
         _ => 0,
     };
-    match paths.get(proof) {
+    match files.get(proof).and_then(|file| file.path.as_ref()) {
         Some(certificate) => {
             let problem = certificate.replace(".certificate.json", ".problem.json");
             let [problem, certificate] =
@@ -330,9 +367,9 @@ fn next_step(analysis: &Analysis, paths: &[String], args: &Args) -> String {
     }
 }
 
-/// The answers for people, in one paragraph and then each with its evidence; `paths` of the
+/// The answers for people, in one paragraph and then each with its evidence; `files` of the
 /// certificates as they were written.
-fn text_of(analysis: &Analysis, paths: &[String], args: &Args) -> String {
+fn text_of(analysis: &Analysis, files: &[ProofFile], args: &Args) -> String {
     let [dofs, free, slip, stick] = analysis.sizes;
     let mut out = String::new();
     if let Some(name) = &analysis.name {
@@ -349,11 +386,11 @@ fn text_of(analysis: &Analysis, paths: &[String], args: &Args) -> String {
 
     out += &warnings_text(&analysis.warnings);
 
-    let next = next_step(analysis, paths, args);
+    let next = next_step(analysis, files, args);
     out += &format!("\n{} {next}\n\n", analysis.summary());
 
     for sentence in analysis.sentences() {
-        let evidence = analysis.evidence_text(&sentence.evidence, paths);
+        let evidence = analysis.evidence_text(&sentence.evidence, files);
         out += &format!("{}\n    [{evidence}]\n", sentence.text);
     }
 

@@ -11,8 +11,8 @@ use mceip_engine::analysis::{AnalysisOptions, Proof, ProofCertificate, analyse};
 use mceip_engine::lean::{LeanError, elaborate_file, shorten_file};
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_exact::whole;
-use mceip_model::Problem;
 use mceip_model::file::{read_problem, write_problem};
+use mceip_model::{Problem, sha256};
 use mceip_testkit::{mechanical, system_of};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -139,10 +139,23 @@ fn the_program_writes_and_reads_both_forms() {
         "1",
         "--samples",
         "0",
+        "--json",
         "--certificates",
     ];
     for options in [vec![&full[..]], vec![&lean[..], "--lean"]] {
-        mceip(&[&common[..], &options].concat());
+        let mut written = 0;
+        let answer = mceip(&[&common[..], &options].concat());
+        let answer: Value = serde_json::from_slice(&answer.stdout).unwrap();
+        for sentence in answer["sentences"].as_array().unwrap() {
+            let evidence = &sentence["evidence"];
+            let Some(path) = evidence["path"].as_str() else {
+                continue;
+            };
+            let file = std::fs::read_to_string(path).unwrap();
+            assert_eq!(evidence["certificate_sha256"], sha256(&file), "{path}");
+            written += 1;
+        }
+        assert!(written >= 2, "{written}");
     }
 
     let mut count = 0;

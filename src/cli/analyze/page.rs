@@ -6,7 +6,7 @@ use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange,
     ReportPage, Section, branch_picture, presence_picture,
 };
-use mceip_engine::analysis::{Analysis, Evidence, Members, Mode, Verdict};
+use mceip_engine::analysis::{Analysis, Evidence, Members, Mode, ProofFile, Verdict};
 use mceip_engine::run::Watch;
 use mceip_exact::to_f64;
 use mceip_model::{Coordinates, System};
@@ -20,8 +20,8 @@ pub(super) struct Drawn<'a> {
     pub(super) coordinates: Option<&'a Coordinates>,
     /// lambda against mu, where that was looked at.
     pub(super) branches: Option<Branches>,
-    /// Paths of the certificates as they were written.
-    pub(super) paths: &'a [String],
+    /// The files of the certificates.
+    pub(super) files: &'a [ProofFile],
     /// When the page is made.
     pub(super) date: SystemTime,
 }
@@ -156,7 +156,7 @@ fn answers(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
             Evidence::Measured(_) => "measured",
         };
 
-        let evidence = analysis.evidence_text(&sentence.evidence, drawn.paths);
+        let evidence = analysis.evidence_text(&sentence.evidence, drawn.files);
         rows.push(row([standing, &sentence.text, &evidence]));
     }
 
@@ -422,8 +422,8 @@ fn proofs(analysis: &Analysis, drawn: &Drawn<'_>) -> Section {
     if let Some(digest) = &analysis.problem_sha256 {
         rows.push(row(["problem", digest]));
     }
-    for (k, proof) in analysis.proofs.iter().enumerate() {
-        let digest = analysis.certificate_sha256(k).unwrap_or_default();
+    for (proof, file) in analysis.proofs.iter().zip(drawn.files) {
+        let digest = file.sha256.clone();
         rows.push(vec![format!("certificate {}", proof.name), digest]);
     }
 

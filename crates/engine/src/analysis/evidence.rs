@@ -53,6 +53,15 @@ impl Proof {
     }
 }
 
+/// The file of a proof's certificate, as an answer names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProofFile {
+    /// SHA-256 of its text.
+    pub sha256: String,
+    /// Where it has been written.
+    pub path: Option<String>,
+}
+
 /// The certificate of a proof.
 #[derive(Debug, Clone)]
 pub enum ProofCertificate {

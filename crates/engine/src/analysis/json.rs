@@ -1,6 +1,6 @@
 //! `mceip-analysis/1`: the answer for programs.
 //!
-//! Input: an [`Analysis`], and the paths to which its certificates were written. Output: one JSON
+//! Input: an [`Analysis`], and the files of its certificates. Output: one JSON
 //! object, described in `spec/`. Enclosures are pairs of decimals rounded outwards; exact numbers
 //! are text. Called by `mceip analyze`.
 
@@ -8,7 +8,7 @@ use super::answer::Analysis;
 use super::conditions::DefiniteUntil;
 use super::critical::Unproved;
 use super::divergence::Verdict;
-use super::evidence::Evidence;
+use super::evidence::{Evidence, Proof, ProofFile};
 use super::flutter::{Flutter, Onset, Oscillation};
 use super::members::MemberCost;
 use super::modes::Mode;
@@ -17,7 +17,7 @@ use super::sentences::Sentence;
 use crate::report::{coefficients, region_json};
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, enclosing_decimals, to_f64};
-use mceip_model::sha256;
+use mceip_model::{ModelError, sha256};
 use serde_json::{Value, json};
 
 /// The format of [`Analysis::to_json`].
@@ -110,18 +110,26 @@ fn pair(pair: &Oscillation) -> Value {
 }
 
 impl Analysis {
-    /// SHA-256 of a proof's certificate as it is written to a file.
-    pub fn certificate_sha256(&self, proof: usize) -> Option<String> {
-        let text = self.proofs.get(proof)?.certificate.file().ok()?;
-        Some(sha256(&text))
+    /// The files of the certificates, none of which has been written.
+    ///
+    /// # Errors
+    /// As [`ProofCertificate::file`](super::ProofCertificate::file).
+    pub fn unwritten_files(&self) -> Result<Vec<ProofFile>, ModelError> {
+        let unwritten = |proof: &Proof| {
+            Ok(ProofFile {
+                sha256: sha256(&proof.certificate.file()?),
+                path: None,
+            })
+        };
+        self.proofs.iter().map(unwritten).collect()
     }
 
-    /// The evidence in words; `paths[i]` is where the certificate of proof i has been written.
-    pub fn evidence_text(&self, evidence: &Evidence, paths: &[String]) -> String {
+    /// The evidence in words; `files[i]` is that of the certificate of proof i.
+    pub fn evidence_text(&self, evidence: &Evidence, files: &[ProofFile]) -> String {
         match evidence {
             Evidence::Certificate(i) => {
                 let name = self.proofs.get(*i).map_or("", |proof| &proof.name);
-                match paths.get(*i) {
+                match files.get(*i).and_then(|file| file.path.as_ref()) {
                     Some(path) => format!("proved, certificate {path}"),
                     None => format!("proved, certificate {name} (--certificates writes it)"),
                 }
@@ -132,24 +140,24 @@ impl Analysis {
     }
 
     /// The evidence for programs.
-    fn evidence_json(&self, evidence: &Evidence, paths: &[String]) -> Value {
+    fn evidence_json(&self, evidence: &Evidence, files: &[ProofFile]) -> Value {
         match evidence {
             Evidence::Certificate(i) => json!({
                 "kind": "certificate",
                 "problem_sha256": self.proofs.get(*i).map(|p| p.problem.sha256()),
-                "certificate_sha256": self.certificate_sha256(*i),
-                "path": paths.get(*i),
+                "certificate_sha256": files.get(*i).map(|file| &file.sha256),
+                "path": files.get(*i).map(|file| &file.path),
             }),
             Evidence::Exact(what) => json!({ "kind": "exact", "how": what }),
             Evidence::Measured(what) => json!({ "kind": "measured", "how": what }),
         }
     }
 
-    fn sentence_json(&self, sentence: &Sentence, paths: &[String]) -> Value {
+    fn sentence_json(&self, sentence: &Sentence, files: &[ProofFile]) -> Value {
         json!({
             "topic": sentence.topic,
             "text": sentence.text,
-            "evidence": self.evidence_json(&sentence.evidence, paths),
+            "evidence": self.evidence_json(&sentence.evidence, files),
         })
     }
 
@@ -168,7 +176,7 @@ impl Analysis {
         sizes
     }
 
-    fn range_json(&self, range: &Range, paths: &[String]) -> Value {
+    fn range_json(&self, range: &Range, files: &[ProofFile]) -> Value {
         json!({
             "verdict": range.verdict.word(),
             "from": range.from.to_string(),
@@ -176,7 +184,7 @@ impl Analysis {
             "to": range.to.as_ref().map(ToString::to_string),
             "to_included": range.is_to_included(),
             "proved": !range.evidence.is_measured(),
-            "evidence": self.evidence_json(&range.evidence, paths),
+            "evidence": self.evidence_json(&range.evidence, files),
         })
     }
 
@@ -201,13 +209,13 @@ impl Analysis {
         })
     }
 
-    fn critical_json(&self, paths: &[String]) -> Value {
+    fn critical_json(&self, files: &[ProofFile]) -> Value {
         let critical = &self.critical;
         let solution = critical.solution.as_ref().map(|solution| {
             json!({
                 "mu": enclosure(&solution.mu),
                 "lambda2": enclosure(&solution.lambda2),
-                "evidence": self.evidence_json(&solution.evidence, paths),
+                "evidence": self.evidence_json(&solution.evidence, files),
             })
         });
 
@@ -219,14 +227,14 @@ impl Analysis {
                     "lambda2": unbounded.beside.lambda2.to_string(),
                     "mu": enclosure(&unbounded.beside.mu),
                 },
-                "evidence": self.evidence_json(&unbounded.evidence, paths),
+                "evidence": self.evidence_json(&unbounded.evidence, files),
             })
         });
 
         json!({
             "without_friction": self.without_friction.word(),
             "absent_below": critical.absent_below.as_ref().map(ToString::to_string),
-            "absent_evidence": self.evidence_json(&critical.evidence, paths),
+            "absent_evidence": self.evidence_json(&critical.evidence, files),
             "solution": solution,
             "boxes": critical.boxes,
             "unproved": critical.unproved.as_ref().map(unproved),
@@ -234,28 +242,28 @@ impl Analysis {
         })
     }
 
-    fn stability_json(&self, paths: &[String]) -> Option<Value> {
+    fn stability_json(&self, files: &[ProofFile]) -> Option<Value> {
         let stability = self.stability.as_ref()?;
         Some(json!({
             "to": stability.to.to_string(),
             "of_every_motion": stability.is_of_every_motion,
-            "evidence": self.evidence_json(&stability.evidence, paths),
+            "evidence": self.evidence_json(&stability.evidence, files),
         }))
     }
 
-    fn members_json(&self, paths: &[String]) -> Option<Value> {
+    fn members_json(&self, files: &[ProofFile]) -> Option<Value> {
         let members = self.members.as_ref()?;
         let absence = members.absent_below.as_ref().map(|(below, evidence)| {
             json!({
                 "below": below.to_string(),
-                "evidence": self.evidence_json(evidence, paths),
+                "evidence": self.evidence_json(evidence, files),
             })
         });
         let presence = members.present.as_ref().map(|([from, to], evidence)| {
             json!({
                 "from": from.to_string(),
                 "to": to.to_string(),
-                "evidence": self.evidence_json(evidence, paths),
+                "evidence": self.evidence_json(evidence, files),
             })
         });
         let first_order = members.first_order.as_ref().map(|first_order| {
@@ -289,16 +297,16 @@ impl Analysis {
         })
     }
 
-    /// The answer as `mceip-analysis/1`; `paths[i]` is where the certificate of proof i has been
-    /// written.
-    pub fn to_json(&self, paths: &[String]) -> Value {
+    /// The answer as `mceip-analysis/1`; `files[i]` is that of the certificate of proof i, without
+    /// which `certificate_sha256` and `path` are null.
+    pub fn to_json(&self, files: &[ProofFile]) -> Value {
         let samples: Vec<Value> = self.samples.iter().map(sample).collect();
         let ranges = self.ranges.iter();
-        let ranges: Vec<Value> = ranges.map(|range| self.range_json(range, paths)).collect();
+        let ranges: Vec<Value> = ranges.map(|range| self.range_json(range, files)).collect();
         let sentences = self.sentences();
         let sentences: Vec<Value> = sentences
             .iter()
-            .map(|sentence| self.sentence_json(sentence, paths))
+            .map(|sentence| self.sentence_json(sentence, files))
             .collect();
 
         json!({
@@ -314,9 +322,9 @@ impl Analysis {
             "summary": self.summary(),
             "divergence": self.divergence_json(),
             "static_threshold": self.threshold_json(),
-            "critical": self.critical_json(paths),
-            "stability": self.stability_json(paths),
-            "members": self.members_json(paths),
+            "critical": self.critical_json(files),
+            "stability": self.stability_json(files),
+            "members": self.members_json(files),
             "ranges": ranges,
             "samples": samples,
             "necessary": self.necessary_json(),

@@ -39,7 +39,7 @@ pub use answer::Analysis;
 pub use critical::{CertifiedSolution, Critical, Obstacle, Unproved};
 pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
-pub use evidence::{Evidence, Proof, ProofCertificate};
+pub use evidence::{Evidence, Proof, ProofCertificate, ProofFile};
 pub use flutter::{Flutter, Onset, Oscillation};
 pub use json::ANALYSIS_FORMAT;
 pub use members::{FirstOrder, MemberCost, Members, UncertainNumber};
