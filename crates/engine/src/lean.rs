@@ -23,7 +23,7 @@
 //! where anchors are made. Nothing here is trusted.
 
 use crate::analysis::friction_parts;
-use crate::run::{Progress, Watch};
+use crate::run::{Progress, Watch, in_threads};
 use crate::search::complete::pieces::anchor::{CenterSolver, MAX_EXPONENT};
 use crate::search::complete::pieces::blocks::{LinearColumns, PencilBlocks};
 use crate::search::complete::pieces::reverse::exchanged;
@@ -36,9 +36,11 @@ use mceip_exact::{Rational, to_f64};
 use mceip_model::file::{from_json, from_json_of_with_unique_keys, require_format, to_json_of};
 use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The format of lean certificates.
 pub const LEAN_FORMAT: &str = "mceip-lean/1";
@@ -353,14 +355,15 @@ fn require_makeable(list: &[IntegerMatrix]) -> Result<(), LeanError> {
     )
 }
 
-/// Makes those coefficients of the anchors that are `wanted` anew, anchor by anchor, and hands them
-/// to `settle`: `None` where F is not definite in doubles, which `settle` may refuse by `false`.
+/// Makes those coefficients of the anchors that are `wanted` anew, several anchors at a time, and
+/// hands them to `settle`: `None` where F is not definite in doubles, which `settle` may refuse by
+/// `false`.
 fn visit<C: HasAnchors>(
     problem: &Problem,
     certificate: &mut C,
     watch: &Watch<'_>,
     wanted: impl Fn(&[IntegerMatrix]) -> bool,
-    settle: impl Fn(&mut Vec<IntegerMatrix>, Option<Vec<IntegerMatrix>>) -> bool,
+    settle: impl Fn(&mut Vec<IntegerMatrix>, Option<Vec<IntegerMatrix>>) -> bool + Sync,
 ) -> Result<(), LeanError> {
     let expected = problem.sha256();
     if certificate.digest() != expected {
@@ -385,29 +388,20 @@ fn visit<C: HasAnchors>(
     makers.require_few(&anchors)?;
 
     let total = anchors.len();
-    for (number, anchor) in anchors.into_iter().enumerate() {
+    let begun = AtomicUsize::new(0);
+    let make_anew = |anchor| {
+        let number = begun.fetch_add(1, Ordering::Relaxed);
         watch.report(&Progress::of("anchors made anew", number, total));
         if watch.is_cancelled() {
             return Err(LeanError::Interrupted);
         }
+        makers.visit(anchor, &settle)
+    };
+    let visited: Vec<Result<(), LeanError>> =
+        in_threads(None, || anchors.into_par_iter().map(make_anew).collect());
 
-        let blocks = if anchor.reversed {
-            &makers.reversed
-        } else {
-            &makers.direct
-        };
-        let solver = CenterSolver::about(&blocks[0], to_f64(anchor.center));
-        for (block, list) in anchor.solutions {
-            let exponents: Vec<u32> = list.iter().map(|matrix| matrix.exponent).collect();
-            let made = solver.as_ref();
-            let made = made.map(|solver| solver.rounded_to(block.of(blocks), &exponents));
-            if !settle(list, made) {
-                return Err(LeanError::NotDefinite(anchor.center.clone()));
-            }
-        }
-    }
-
-    Ok(())
+    // In the order of the anchors: of several refusals the first one is told.
+    visited.into_iter().collect()
 }
 
 /// What the anchors of a certificate are made from.
@@ -425,6 +419,30 @@ impl Makers {
             direct: pencils.iter().map(PencilBlocks::of).collect(),
             reversed: exchanged.iter().map(PencilBlocks::of).collect(),
         })
+    }
+
+    /// Makes the coefficients of an anchor anew and hands them to `settle`; see [`visit`].
+    fn visit(
+        &self,
+        anchor: AnchorMatrices<'_>,
+        settle: &impl Fn(&mut Vec<IntegerMatrix>, Option<Vec<IntegerMatrix>>) -> bool,
+    ) -> Result<(), LeanError> {
+        let blocks = if anchor.reversed {
+            &self.reversed
+        } else {
+            &self.direct
+        };
+        let solver = CenterSolver::about(&blocks[0], to_f64(anchor.center));
+        for (block, list) in anchor.solutions {
+            let exponents: Vec<u32> = list.iter().map(|matrix| matrix.exponent).collect();
+            let made = solver.as_ref();
+            let made = made.map(|solver| solver.rounded_to(block.of(blocks), &exponents));
+            if !settle(list, made) {
+                return Err(LeanError::NotDefinite(anchor.center.clone()));
+            }
+        }
+
+        Ok(())
     }
 
     /// Refuses what would take too long or too much memory.
