@@ -87,9 +87,26 @@ pub fn analyse(
         return Ok(by_theorem::nothing_slips(name, system, friction));
     }
 
-    let with_radii = system;
-    let given = (!system.is_exact()).then(|| system.as_given());
-    let system = given.as_ref().unwrap_or(system);
+    let in_pool = AnalysisOptions {
+        threads: None,
+        ..*options
+    };
+    in_threads(options.threads, || {
+        analyse_in_pool(name, system, friction, &in_pool, watch)
+    })
+}
+
+/// [`analyse`] for a question that is admitted, in the current pool. Searches that do not use each
+/// other's results run side by side; the proofs are in a fixed order.
+fn analyse_in_pool(
+    name: Option<String>,
+    with_radii: &System,
+    friction: &Rational,
+    options: &AnalysisOptions,
+    watch: &Watch<'_>,
+) -> Result<Analysis, AnalysisError> {
+    let given = (!with_radii.is_exact()).then(|| with_radii.as_given());
+    let system = given.as_ref().unwrap_or(with_radii);
     let model = AnalysisModel {
         system,
         options,
@@ -99,36 +116,43 @@ pub fn analyse(
     let mut proofs = Vec::new();
     let ground = CriticalGround::of(&model, friction, &mut proofs)?;
     let known = ground.known(friction);
-    let found = critical::critical(&model, &known, &mut proofs)?;
-    let members = given
-        .is_some()
-        .then(|| self::members(&model, with_radii, friction, &found, &mut proofs));
-    let CriticalGround {
-        families,
-        necessary,
-        ..
-    } = &ground;
-    let condensed = families.condensed(necessary);
-    let of_ranges = ranges::ranges(&model, &known, found, &mut proofs)?;
-    let critical = of_ranges.critical;
-    let unbounded = unbounded::unbounded(&model, necessary, &critical, &mut proofs)?;
 
-    let stability = stability(&model, &known, &mut proofs);
-
-    let flutter = if watch.is_cancelled() {
-        None
-    } else {
-        watch.report(&Progress::stage(
-            "flutter: eigenvalues with all particles slipping",
-        ));
-        flutter::flutter(families, friction)
+    let over_friction = || -> Result<_, AnalysisError> {
+        let found = critical::critical(&model, &known, &mut proofs)?;
+        let members = given
+            .is_some()
+            .then(|| self::members(&model, with_radii, friction, &found, &mut proofs));
+        let of_ranges = ranges::ranges(&model, &known, found, &mut proofs)?;
+        let critical = &of_ranges.critical;
+        let unbounded = unbounded::unbounded(&model, &ground.necessary, critical, &mut proofs)?;
+        watch.report(&Progress::stage("stability at rest, flutter"));
+        Ok((of_ranges, members, unbounded))
     };
+    let stability_and_flutter = || {
+        let stable = stability(&model.quiet(), &known);
+        let is_stopped = watch.is_cancelled();
+        let flutter = (!is_stopped).then(|| flutter::flutter(&ground.families, friction));
+        (stable, flutter.flatten())
+    };
+    // An error of one is told when the other has ended.
+    let (over_friction, (stable, flutter)) = rayon::join(over_friction, stability_and_flutter);
+    let (of_ranges, members, unbounded) = over_friction?;
+    let stability = stable.map(|(accepted, proof)| {
+        proofs.push(proof);
+        Stability {
+            to: accepted.to,
+            is_of_every_motion: accepted.is_of_every_motion,
+            evidence: Evidence::Certificate(proofs.len() - 1),
+        }
+    });
+
     let CriticalGround {
         families,
         necessary,
         at_friction,
         threshold,
     } = ground;
+    let condensed = families.condensed(&necessary);
 
     Ok(Analysis {
         name,
@@ -142,7 +166,7 @@ pub fn analyse(
         without_friction: by_theorem::without_friction(&necessary, families.zero.len()).verdict,
         divergence: at_friction.divergence,
         threshold,
-        critical,
+        critical: of_ranges.critical,
         unbounded,
         stability,
         members,
@@ -171,16 +195,29 @@ impl CriticalGround {
         proofs: &mut Vec<Proof>,
     ) -> Result<CriticalGround, AnalysisError> {
         let (families, necessary) = families_and_condition(model)?;
-        let mut at_friction = AtFriction::decide(model, &families, &necessary, friction)?;
+        let at_zero = model.problem(None)?;
+        let stage = "static threshold, all mu >= 0";
+        let decide = || {
+            let decided = AtFriction::decide(model, &families, &necessary, friction);
+            model.watch.report(&Progress::stage(stage));
+            decided
+        };
+        let search_threshold = || {
+            let found = model.quiet().complete(stage, &at_zero, Some("mu"))?;
+            let certificate = ProofCertificate::Solutions(found.proved.clone());
+            let proof = proof(model, "mu", at_zero, certificate);
+            Ok::<_, AnalysisError>((found, proof))
+        };
+        let (at_friction, at_zero) = rayon::join(decide, search_threshold);
+        let mut at_friction = at_friction?;
+        let (found, proof_at_zero) = at_zero?;
         proofs.extend(at_friction.proof.take());
 
-        let at_zero = model.problem(None)?;
-        let found = model.complete("static threshold, all mu >= 0", &at_zero, Some("mu"))?;
         let threshold = StaticThreshold::of(&found, proofs.len());
         let slip = families.own.stiffness.slip();
         let of_threshold = starts(&found, &slip, |value| [0.0, value]);
         at_friction.starts.extend(of_threshold);
-        proofs.push(proof(model, "mu", at_zero, found));
+        proofs.push(proof_at_zero);
 
         let stage = "critical mu: all lambda^2 >= 0 and all smaller mu";
         model.watch.report(&Progress::stage(stage));
@@ -270,29 +307,16 @@ pub fn divergence_at(
     Ok((at_friction.divergence, at_friction.proof))
 }
 
-/// Up to which mu the equilibrium is stable, with the certificate among the proofs.
+/// Up to which mu the equilibrium is stable, with its proof; `None` where none is found.
 fn stability(
     model: &AnalysisModel<'_>,
     known: &KnownOfSystem<'_>,
-    proofs: &mut Vec<Proof>,
-) -> Option<Stability> {
-    model.watch.report(&Progress::stage("stability at rest"));
+) -> Option<(AcceptedStability, Proof)> {
     let proved = stability::stable_until(known.families, known.problem, &model.watch)?;
-    let AcceptedStability {
-        to,
-        is_of_every_motion,
-        ..
-    } = proved.accepted().clone();
+    let accepted = proved.accepted().clone();
     let certificate = ProofCertificate::Stability(proved);
-    let proof = Proof::new("stable", known.problem.clone(), certificate);
-    model.keep(&proof.name, &proof.problem, &proof.certificate);
-    proofs.push(proof);
-
-    Some(Stability {
-        to,
-        is_of_every_motion,
-        evidence: Evidence::Certificate(proofs.len() - 1),
-    })
+    let proof = proof(model, "stable", known.problem.clone(), certificate);
+    Some((accepted, proof))
 }
 
 /// A certificate that the equilibrium is stable for every mu up to one, as large a one as is found;
@@ -378,17 +402,25 @@ impl AtFriction {
         Ok(AtFriction {
             sufficient: sufficient(families, &problem, &found, divergence.verdict),
             starts: starts(&found, &slip, |value| [value, mu]),
-            proof: Some(proof(model, "lambda2", problem.clone(), found)),
+            proof: Some(proof(
+                model,
+                "lambda2",
+                problem.clone(),
+                ProofCertificate::Solutions(found.proved),
+            )),
             problem,
             divergence,
         })
     }
 }
 
-/// A problem with the certificate that a complete search made for it, handed over to the keeper of
-/// the run.
-fn proof(model: &AnalysisModel<'_>, name: &str, problem: Problem, found: Completed) -> Proof {
-    let certificate = ProofCertificate::Solutions(found.proved);
+/// A problem with a certificate for it, handed over to the keeper of the run.
+fn proof(
+    model: &AnalysisModel<'_>,
+    name: &str,
+    problem: Problem,
+    certificate: ProofCertificate,
+) -> Proof {
     model.keep(name, &problem, &certificate);
     Proof::new(name, problem, certificate)
 }

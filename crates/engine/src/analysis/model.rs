@@ -147,6 +147,15 @@ impl AnalysisModel<'_> {
         });
     }
 
+    /// The same model without progress reports: for a search beside another one, whose progress is
+    /// shown.
+    pub(super) fn quiet(&self) -> AnalysisModel<'_> {
+        AnalysisModel {
+            watch: self.watch.quiet(),
+            ..*self
+        }
+    }
+
     pub(super) fn stopped(&self) -> bool {
         self.watch.is_cancelled()
     }
