@@ -16,7 +16,7 @@
 use super::blocks::{LinearColumns, PencilBlocks};
 use super::expansion::{ColumnNorms, Expansion};
 use super::matrix::{SquareMatrix, zeros};
-use super::skyline::{Skyline, dot};
+use super::skyline::{Skyline, dot, nonzero, sparse_dot};
 use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
 use crate::search::complete::rounding::integer;
@@ -436,22 +436,20 @@ impl<'a> CenterSolver<'a> {
         k: usize,
         before: Option<&SlipColumns>,
     ) -> SlipColumns {
-        let mut columns = SlipColumns::new();
-        for j in 0..self.blocks.slip.len() {
-            let mut column = match k {
-                0 => given.at(j, self.center),
-                1 => given.slope[j].clone(),
-                _ => vec![0.0; self.blocks.free.len()],
-            };
+        let slip = 0..self.blocks.slip.len();
+        let mut columns: SlipColumns = match k {
+            0 => slip.map(|j| given.at(j, self.center)).collect(),
+            1 => given.slope.clone(),
+            _ => slip.map(|_| vec![0.0; self.blocks.free.len()]).collect(),
+        };
 
-            if let Some(before) = before {
-                let product = self.blocks.mass_rows.times(&before[j]);
+        if let Some(before) = before {
+            let products = self.blocks.mass_rows.times_all(before);
+            for (column, product) in columns.iter_mut().zip(products) {
                 for (c, p) in column.iter_mut().zip(product) {
                     *c -= p;
                 }
             }
-
-            columns.push(column);
         }
 
         columns
@@ -472,16 +470,18 @@ fn residual(
     for j in 0..order {
         residual[0][j] = given.at(j, center);
         residual[1][j].clone_from(&given.slope[j]);
+    }
 
-        for (k, coefficient) in solution.iter().enumerate() {
-            let mass = blocks.mass_rows.times(&coefficient[j]);
-            let stiffness = blocks.stiffness_rows.times(&coefficient[j]);
+    for (k, coefficient) in solution.iter().enumerate() {
+        let mass = blocks.mass_rows.times_all(coefficient);
+        let stiffness = blocks.stiffness_rows.times_all(coefficient);
+        for j in 0..order {
             for (i, r) in residual[k][j].iter_mut().enumerate() {
-                *r -= stiffness[i] + center * mass[i];
+                *r -= stiffness[j][i] + center * mass[j][i];
             }
 
             for (i, r) in residual[k + 1][j].iter_mut().enumerate() {
-                *r -= mass[i];
+                *r -= mass[j][i];
             }
         }
     }
@@ -506,8 +506,10 @@ impl CondensedPolynomial<'_> {
         let mut coefficients = vec![zeros(order); self.degree() + 1];
 
         for i in 0..order {
+            let [constant, slope] = [&self.blocks.sf.constant, &self.blocks.sf.slope];
+            let row = [constant, slope].map(|rows| nonzero(&rows[i]));
             for j in 0..order {
-                let entry = self.entry(i, j);
+                let entry = self.entry(i, j, &row);
                 for (matrix, value) in coefficients.iter_mut().zip(entry) {
                     matrix[i][j] = value * row_factors[i];
                 }
@@ -524,9 +526,9 @@ impl CondensedPolynomial<'_> {
         of_solution.max(of_product).max(1)
     }
 
-    /// Entry (i, j) of every coefficient.
-    fn entry(&self, i: usize, j: usize) -> Vec<f64> {
-        let sf = &self.blocks.sf;
+    /// Entry (i, j) of every coefficient; of row i of T_sf the entries of both parts that are not
+    /// zero are given.
+    fn entry(&self, i: usize, j: usize, [constant, slope]: &[Vec<(usize, f64)>; 2]) -> Vec<f64> {
         let row = self.blocks.slip[i];
         let column = self.blocks.slip[j];
         let a = to_f64(&self.pencil.a().get(row, column));
@@ -539,8 +541,8 @@ impl CondensedPolynomial<'_> {
 
         // T_sf W.
         for (k, w) in self.right.iter().enumerate() {
-            let by_constant = dot(&sf.constant[i], &w[j]);
-            let by_slope = dot(&sf.slope[i], &w[j]);
+            let by_constant = sparse_dot(constant, &w[j]);
+            let by_slope = sparse_dot(slope, &w[j]);
             entry[k] -= by_constant + self.center * by_slope;
             entry[k + 1] -= by_slope;
         }

@@ -3,7 +3,7 @@
 //! With f the free and s the complementarity variables these are F(t) = A_ff + t B_ff, the columns
 //! of T_fs(t) = A_fs + t B_fs and those of T_sf(t)'. All in doubles.
 
-use super::skyline::{Skyline, dot};
+use super::skyline::{Skyline, TOGETHER, dot, side_by_side};
 use mceip_exact::{Sparse, to_f64};
 use mceip_model::Pencil;
 
@@ -28,6 +28,30 @@ impl SparseRows {
             .iter()
             .map(|row| row.iter().map(|(j, v)| v * x[*j]).sum())
             .collect()
+    }
+
+    /// The products with columns, [`TOGETHER`] in one pass over the matrix, which is larger than
+    /// the cache.
+    pub(crate) fn times_all(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut products = Vec::with_capacity(columns.len());
+        for group in columns.chunks(TOGETHER) {
+            let x = side_by_side(group, group[0].len());
+            let mut of_group = vec![Vec::with_capacity(self.0.len()); group.len()];
+            for row in &self.0 {
+                let mut sums = [0.0; TOGETHER];
+                for (j, v) in row {
+                    for k in 0..TOGETHER {
+                        sums[k] += v * x[*j][k];
+                    }
+                }
+                for (product, sum) in of_group.iter_mut().zip(sums) {
+                    product.push(sum);
+                }
+            }
+            products.extend(of_group);
+        }
+
+        products
     }
 }
 

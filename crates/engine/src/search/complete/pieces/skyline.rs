@@ -9,8 +9,8 @@ use crate::search::complete::rounding::integer;
 use mceip_check::certificate::Factor;
 use mceip_exact::{Sparse, to_f64};
 
-/// Right-hand sides solved for in one pass over L.
-const TOGETHER: usize = 8;
+/// Columns that are taken together, in one pass over a matrix.
+pub(super) const TOGETHER: usize = 8;
 
 /// Partial sums of an inner product.
 const LANES: usize = 8;
@@ -196,13 +196,7 @@ impl Skyline {
     /// The same for many right-hand sides, [`TOGETHER`] of them in one pass over L.
     pub(crate) fn solve_all(&self, columns: &mut [Vec<f64>]) {
         for group in columns.chunks_mut(TOGETHER) {
-            let mut b = vec![[0.0; TOGETHER]; self.rows.len()];
-            for (k, column) in group.iter().enumerate() {
-                for (row, v) in b.iter_mut().zip(column) {
-                    row[k] = *v;
-                }
-            }
-
+            let mut b = side_by_side(group, self.rows.len());
             self.solve_together(&mut b);
 
             for (k, column) in group.iter_mut().enumerate() {
@@ -331,6 +325,42 @@ impl Skyline {
     }
 }
 
+/// Up to [`TOGETHER`] columns of this length by rows, zeros in place of those that are missing.
+pub(super) fn side_by_side(columns: &[Vec<f64>], length: usize) -> Vec<[f64; TOGETHER]> {
+    let mut rows = vec![[0.0; TOGETHER]; length];
+    for (k, column) in columns.iter().enumerate() {
+        for (row, v) in rows.iter_mut().zip(column) {
+            row[k] = *v;
+        }
+    }
+
+    rows
+}
+
+/// The inner product of a vector, given by its [`nonzero`] entries, and `b`, whose entries are
+/// finite. The products are added as [`dot`] adds them, which gives the same number.
+pub(super) fn sparse_dot(entries: &[(usize, f64)], b: &[f64]) -> f64 {
+    let end_of_groups = b.len() / LANES * LANES;
+    let mut rest = 0.0;
+    let mut sums = [0.0; LANES];
+    for &(j, value) in entries {
+        let product = value * b[j];
+        if j < end_of_groups {
+            sums[j % LANES] += product;
+        } else {
+            rest += product;
+        }
+    }
+
+    sums.iter().sum::<f64>() + rest
+}
+
+/// The entries of a vector that are not zero: position and value.
+pub(super) fn nonzero(vector: &[f64]) -> Vec<(usize, f64)> {
+    let entries = vector.iter().copied().enumerate();
+    entries.filter(|(_, value)| *value != 0.0).collect()
+}
+
 /// a'b in eight partial sums, which the processor forms side by side.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let groups_of_a = a.chunks_exact(LANES);
@@ -356,6 +386,20 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use mceip_exact::whole;
+
+    #[test]
+    fn zeros_change_no_inner_product() {
+        for n in [1, 7, 8, 9, 23, 40] {
+            let b: Vec<f64> = (1..=n).map(|i| f64::from(i).sqrt()).collect();
+            let a: Vec<f64> = (0..n)
+                .map(|i| if i % 3 == 0 { 0.0 } else { f64::from(i).cbrt() })
+                .collect();
+            assert_eq!(
+                sparse_dot(&nonzero(&a), &b).to_bits(),
+                dot(&a, &b).to_bits()
+            );
+        }
+    }
 
     #[test]
     fn partial_sums_leave_nothing_out() {
