@@ -51,10 +51,12 @@ class Solution:
         unknown: "lambda2" (units of stiffness / mass), "mu" (no unit) or "eigenvalue".
         value: the value, rounded.
         enclosure: encloses the value.
-        support: variables of the pencil with x > 0: impending slip that becomes slip.
+        support: complementarity variables with x > 0; of a body, the particles in impending slip
+            that slip.
         biactive: variables with x = y = 0, where that is proved; empty where the solution is only
             enclosed.
-        x: over the variables of the pencil, scaled so that the slip variables sum to one.
+        x: over the variables of the pencil, scaled so that its complementarity variables sum to
+            one.
         y: (A + t B) x, over the same.
         v: displacements over the degrees of freedom, the mode of (8); None for a pencil.
         w: reaction rates over the degrees of freedom; None for a pencil.
@@ -88,7 +90,7 @@ class Family:
     """Solutions of one support: at one value, or at every value between two.
 
     Attributes:
-        support: variables with x > 0.
+        support: complementarity variables with x > 0.
         start: encloses the smallest value; None where there is none.
         end: encloses the largest value; None where there is none.
         is_point: is it one value?
@@ -109,8 +111,8 @@ class OpenRegion:
     Attributes:
         min: smallest value; None for -infinity.
         max: largest value; None for infinity.
-        moving: variables that belong to each of the supports.
-        undecided: variables that may belong to them or not.
+        moving: variables that are in each of the supports.
+        undecided: variables that may be in them or not.
     """
 
     min: Fraction | None
@@ -760,13 +762,13 @@ def placed(interval: Interval) -> str:
 
 
 def table_of_solutions(solutions: Sequence[Solution]) -> str:
-    """Values, with their enclosures, and who slips."""
+    """Values, with their enclosures, and supports."""
     unknown = solutions[0].unknown if solutions else "value"
     rows = []
     for solution in solutions:
         support = ", ".join(str(index) for index in solution.support)
         rows.append([f"{solution.value:.10g}", str(solution.enclosure), support])
-    return html_table([unknown, "enclosure", "slip"], rows)
+    return html_table([unknown, "enclosure", "support"], rows)
 
 
 def html_table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

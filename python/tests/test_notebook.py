@@ -14,6 +14,8 @@ def test_answers_are_tables(example):
     everything = example("fold").complete()
     assert "complete" in everything._repr_html_()
     assert "<td>2</td>" in everything._repr_html_()
+    heading = "<th>lambda2</th><th>enclosure</th><th>support</th>"
+    assert heading in everything._repr_html_()
     assert "2 found" in example("fold").solve()._repr_html_()
 
     html = example("point").analyze(samples=0)._repr_html_()

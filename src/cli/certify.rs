@@ -594,7 +594,7 @@ impl<'a> Certifying<'a> {
     }
 }
 
-/// "[1.5, 1.6] with slip [0, 1]", with commas between several.
+/// "[1.5, 1.6] with support [0, 1]", with commas between several.
 fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String {
     let mut solutions = Vec::new();
     for solution in &cover.solutions {
@@ -604,7 +604,7 @@ fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String {
         }
         let (lo, hi) = enclosing_decimals(&solution.value, 15);
         let support = &solution.support;
-        solutions.push(format!("[{lo}, {hi}] with slip {support:?}"));
+        solutions.push(format!("[{lo}, {hi}] with support {support:?}"));
     }
 
     solutions.join(", ")

@@ -467,8 +467,8 @@ fn cover_verdict(problem: &Problem, windows: &[RealWindow], cover: &AcceptedCove
 fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) -> String {
     let word = problem.unknown().word();
     let (lo, hi) = enclosing_decimals(&claim.value, 17);
-    let slip = say::slip_text(problem, &claim.support);
-    let proved = format!("{word} in [{lo}, {hi}], {slip}");
+    let support = say::support_text(problem, &claim.support);
+    let proved = format!("{word} in [{lo}, {hi}], {support}");
 
     match place {
         None => format!("solution: {proved}\n"),

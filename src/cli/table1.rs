@@ -74,7 +74,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         "S1",
         "S2",
         "lambda^2",
-        "slip",
+        "support",
         "x_T1",
         "x_T2",
         "exact polynomial",

@@ -20,13 +20,13 @@ pub struct Solution {
     pub value: f64,
     /// Encloses the value, with rational ends.
     pub enclosure: Interval,
-    /// The support: indices of complementarity variables with x_i > 0, impending slip that becomes
-    /// slip.
+    /// The support: indices of complementarity variables with x_i > 0; of a body, the particles in
+    /// impending slip that slip.
     pub support: Vec<usize>,
     /// Indices with x_i = y_i = 0, where that is proved; empty where the solution is only enclosed.
     pub biactive: Vec<usize>,
-    /// x over the variables of the pencil, scaled so that the slip variables sum to one; empty
-    /// where it is not known.
+    /// x over the variables of the pencil, scaled so that its complementarity variables sum to one;
+    /// empty where it is not known.
     pub x: Vec<f64>,
     /// y = (A + tB) x.
     pub y: Vec<f64>,
@@ -60,11 +60,11 @@ impl Solution {
     }
 }
 
-/// "lambda2 = 2, slip [0, 1]".
+/// "lambda2 = 2, support [0, 1]".
 impl fmt::Display for Solution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let unknown = self.unknown.word();
-        write!(f, "{unknown} = {}, slip {:?}", self.value, self.support)
+        write!(f, "{unknown} = {}, support {:?}", self.value, self.support)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What an accepted cover has proved, in lines: solutions, families, open regions, and the verdict.
 
-use super::{range_text, slip_text};
+use super::{range_text, support_text};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_engine::report::counted;
 use mceip_engine::search::complete::continua::joined;
@@ -16,8 +16,8 @@ pub(crate) fn text(problem: &Problem, window: &str, cover: &AcceptedCover) -> St
     let mut out = String::new();
     for solution in &cover.solutions {
         let (lo, hi) = enclosing_decimals(&solution.value, 15);
-        let slip = slip_text(problem, &solution.support);
-        out += &format!("solution: {word} in [{lo}, {hi}], {slip}\n");
+        let support = support_text(problem, &solution.support);
+        out += &format!("solution: {word} in [{lo}, {hi}], {support}\n");
     }
 
     let families = joined(&cover.families);
@@ -97,17 +97,26 @@ fn count_text(cover: &AcceptedCover) -> String {
 
 fn open_text(word: &str, region: &OpenRegion) -> String {
     let range = range_text(region.min.as_ref(), region.max.as_ref());
+    format!("{word} in {range}, {}", open_supports_text(region))
+}
+
+/// "support [0] and any of [1, 2]": the supports of which nothing is proved.
+fn open_supports_text(region: &OpenRegion) -> String {
     let OpenRegion {
         moving, undecided, ..
     } = region;
-    format!("{word} in {range}, moving {moving:?}, undecided {undecided:?}")
+    if undecided.is_empty() {
+        format!("support {moving:?}")
+    } else {
+        format!("support {moving:?} and any of {undecided:?}")
+    }
 }
 
 fn family_text(problem: &Problem, family: &SolutionFamily) -> String {
     let values = family_values(problem.unknown().word(), family);
-    let slip = slip_text(problem, &family.support);
+    let support = support_text(problem, &family.support);
     let how_many = family_size(family);
-    format!("{values}, {slip}, {how_many}")
+    format!("{values}, {support}, {how_many}")
 }
 
 /// Where the values of a family lie.
@@ -150,19 +159,16 @@ fn end_text(end: &Interval) -> String {
 pub(crate) fn text_at_infinity(cover: &AcceptedCover) -> String {
     let mut out = String::new();
     for solution in &cover.solutions {
-        out += &format!("at infinity: slip {:?}\n", solution.support);
+        out += &format!("at infinity: support {:?}\n", solution.support);
     }
 
     for family in &cover.families {
         let support = &family.support;
-        out += &format!("at infinity: a cone of solutions, slip {support:?}\n");
+        out += &format!("at infinity: a cone of solutions, support {support:?}\n");
     }
 
     for region in &cover.open {
-        out += &format!(
-            "at infinity: open, moving {:?}, undecided {:?}\n",
-            region.moving, region.undecided
-        );
+        out += &format!("at infinity: open, {}\n", open_supports_text(region));
     }
 
     let verdict = verdict_at_infinity(cover);

@@ -54,10 +54,10 @@ pub(crate) fn range_text(min: Option<&Rational>, max: Option<&Rational>) -> Stri
     format!("{min}, {max}")
 }
 
-/// "slip [0, 2]", the variables of a support; where all of them belong to particles with names,
-/// "slip [0, 2] (heel, toe)".
-pub(crate) fn slip_text(problem: &Problem, support: &[usize]) -> String {
-    let numbers = format!("slip {support:?}");
+/// "support [0, 2]", the variables of a support; where all of them belong to particles with names,
+/// "support [0, 2] (heel, toe)".
+pub(crate) fn support_text(problem: &Problem, support: &[usize]) -> String {
+    let numbers = format!("support {support:?}");
     let Body::System(system) = problem.body() else {
         return numbers;
     };

@@ -82,7 +82,7 @@ fn cones_stand_among_the_solutions_with_their_rays() {
     assert_eq!(single["kernel_dimension"], json!(1));
     assert_eq!(single["rays"], Value::Null);
 
-    output.assert_prints("cone of dimension 2 at 1, slip [0, 1]");
+    output.assert_prints("cone of dimension 2 at 1, support [0, 1]");
     output.assert_prints("ray 1.000000 0.000000");
 }
 
@@ -107,7 +107,7 @@ fn continua_are_written_with_their_ends() {
     assert_eq!(to["value"], json!("2"));
     assert_eq!(to["included"], json!(false));
 
-    output.assert_prints("continuum: slip [0, 1] has solutions for every value in [1, 2)");
+    output.assert_prints("continuum: support [0, 1] has solutions for every value in [1, 2)");
 }
 
 /// (t - 1) I with a free variable: x_f, -x_f and the half-plane.

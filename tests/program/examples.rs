@@ -30,7 +30,7 @@ fn the_first_program_is_short_and_finds_both_solutions() {
     assert!(statements.count() <= 10);
     assert_eq!(
         output("first_program"),
-        "found lambda2 = 2, slip [0, 1]\nfound lambda2 = 3, slip [0, 1]\n\
+        "found lambda2 = 2, support [0, 1]\nfound lambda2 = 3, support [0, 1]\n\
          in all 2, complete: true\nthe certificate is accepted\n"
     );
 }

@@ -353,11 +353,11 @@ fn table(report: &Report<'_>) -> Table {
     let title_of_x = if is_short(report) {
         "x (e'x_s = 1)"
     } else {
-        "x (slip variables, e'x_s = 1)"
+        "x (complementarity variables, e'x_s = 1)"
     };
 
     let unknown = report.problem.unknown().word();
-    let mut table = Table::new(&[unknown, "slip", "biactive", title_of_x]);
+    let mut table = Table::new(&[unknown, "support", "biactive", title_of_x]);
     for solution in &report.solutions {
         table.row(vec![
             solution.value.clone(),
@@ -388,7 +388,7 @@ fn degenerate(report: &Report<'_>, enumeration: &Enumeration) -> String {
     for range in &enumeration.ranges {
         let intervals: Vec<String> = range.pieces.iter().map(interval_text).collect();
         out += &format!(
-            "continuum: slip {:?} has solutions for every value in {}\n",
+            "continuum: support {:?} has solutions for every value in {}\n",
             range.support,
             intervals.join(", ")
         );
@@ -410,7 +410,7 @@ fn degenerate(report: &Report<'_>, enumeration: &Enumeration) -> String {
 fn cone_text(report: &Report<'_>, cone: &Cone) -> String {
     let listed = Listed::of_cone(report.problem, report.reduced, cone);
     let mut out = format!(
-        "cone of dimension {} at {}, slip {:?}: combinations of\n",
+        "cone of dimension {} at {}, support {:?}: combinations of\n",
         cone.dimension, listed.value, cone.slip
     );
     let Some(listed_cone) = listed.cone else {

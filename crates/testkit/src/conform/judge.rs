@@ -9,8 +9,8 @@
 //! 1e-4 of 1 + |value|, x within 1e-3 with e'x_s = 1, support by several guesses), and the exact
 //! solution of that claim is in the answer. Where values of both signs are asked for, one next to 0
 //! is certified on both sides. Scale, order and repetitions do not matter. The answer is complete
-//! if every listed solution, every cone (a solution inside it, with its whole slip set) and every
-//! continuum (its intervals, or a solution on its slip set) is met. A reported solution that is not
+//! if every listed solution, every cone (a solution inside it, with its whole support) and every
+//! continuum (its intervals, or a solution on its support) is met. A reported solution that is not
 //! certified is inaccurate where one of the listed solutions is near, and wrong elsewhere.
 //!
 //! Input: a case and the text that a program printed. Output: a label and the first reason for it.
@@ -444,7 +444,7 @@ impl MetParts<'_> {
                 Ok(())
             }
             _ => Err(format!(
-                "continuum of slip {:?}: its values are not those of the answer",
+                "continuum of support {:?}: its values are not those of the answer",
                 reported.slip
             )),
         }
@@ -464,7 +464,7 @@ impl MetParts<'_> {
                 let accepted = &answer.cover.solutions[first_unmet(&self.solutions)?];
                 let value = nearest_decimal(&accepted.value.mid(), 9);
                 let support = &accepted.support;
-                format!("the solution {value} with slip {support:?}")
+                format!("the solution {value} with support {support:?}")
             }
         };
         Some(format!("{count} of {total} missing, first {first}"))
@@ -474,13 +474,21 @@ impl MetParts<'_> {
     fn first_missing(&self, answer: &Enumeration) -> Option<String> {
         Some(if let Some(k) = first_unmet(&self.solutions) {
             let s = &answer.solutions[k];
-            format!("the solution {} with slip {:?}", decimal(&s.value), s.slip)
+            format!(
+                "the solution {} with support {:?}",
+                decimal(&s.value),
+                s.slip
+            )
         } else if let Some(k) = first_unmet(&self.cones) {
             let c = &answer.cones[k];
-            format!("the cone at {} with slip {:?}", decimal(&c.value), c.slip)
+            format!(
+                "the cone at {} with support {:?}",
+                decimal(&c.value),
+                c.slip
+            )
         } else {
             let range = &answer.ranges[first_unmet(&self.ranges)?];
-            format!("the continuum of slip {:?}", range.support)
+            format!("the continuum of support {:?}", range.support)
         })
     }
 }

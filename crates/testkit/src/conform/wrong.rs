@@ -181,7 +181,7 @@ fn incomplete(answer: &Enumeration, points: &[ListedPoint]) -> Option<WrongAnswe
     }
 
     // Cones and continua come last: a report without them has dropped them, unless a listed
-    // solution lies on a continuum's slip set.
+    // solution lies on a continuum's support.
     let lies_on_a_range = |s: &Solution| answer.ranges.iter().any(|r| r.support == s.slip);
     if answer.solutions.iter().any(lies_on_a_range) {
         return None;
