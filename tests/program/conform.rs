@@ -532,6 +532,29 @@ fn a_program_that_waits_for_the_end_of_its_input_is_told_what_lines_are() {
     assert_eq!(report["failures"][0]["detail"], "still running after 0.5 s");
 }
 
+/// A program that hangs after it has answered a line knows what lines are.
+#[cfg(unix)]
+#[test]
+fn a_program_that_hangs_after_an_answer_is_not_told_what_lines_are() {
+    let folder = Folder::new();
+    let answered = folder.path("answered");
+    let once = format!(
+        "while read -r p; do if mkdir {answered}; then {NOTHING_FOUND}; else {SLEEPING}; fi; done"
+    );
+    let cases = ["--case", "window-00", "--case", "window-01"];
+    let lines = ["--lines", "--threads", "1", "--json", "--time-limit", "0.5"];
+    let options = [&cases[..], &lines].concat();
+
+    let report = conform(&options, &["sh", "-c", &once]).report();
+
+    let failures = report["failures"].as_array().unwrap();
+    let timed_out = failures.iter().find(|f| f["label"] == "timed out");
+    assert_eq!(
+        timed_out.unwrap()["detail"],
+        "still running after 0.5 s without a line for this problem; it has answered others"
+    );
+}
+
 /// What a program prints beyond its answer, or that it ends after it, is not charged to the next
 /// case, however quick the machine is.
 #[cfg(unix)]

@@ -19,7 +19,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -87,6 +87,7 @@ pub fn run(
         watch,
         total,
         finished: AtomicUsize::new(0),
+        has_answered: AtomicBool::new(false),
         idle: Mutex::new(Vec::new()),
     };
 
@@ -129,6 +130,8 @@ struct Run<'a> {
     watch: &'a Watch<'a>,
     total: usize,
     finished: AtomicUsize,
+    /// Has the command printed anything for a case?
+    has_answered: AtomicBool,
     /// Programs that answer line by line and wait for a problem; at most one for each thread.
     idle: Mutex<Vec<LineProgram<'a>>>,
 }
@@ -233,6 +236,20 @@ impl Run<'_> {
         Ok(judgement.map(|judgement| TimedJudgement { judgement, seconds }))
     }
 
+    /// What is known of a program that has not answered in time, beside the time.
+    ///
+    /// Only one that has never answered may wait for the end of its input.
+    fn without_an_answer(&self) -> &'static str {
+        if !self.plan.by_lines {
+            ""
+        } else if self.has_answered.load(Ordering::Relaxed) {
+            " without a line for this problem; it has answered others"
+        } else {
+            " without a line: with --lines a program answers each line as it comes, flushes its \
+             output and does not read to the end of its input"
+        }
+    }
+
     /// The judgement on how the program ended. `None` if it was interrupted.
     fn judged(&self, case: &Case, ending: ProcessEnding) -> Option<Judgement> {
         let limits = &self.plan.limits;
@@ -241,12 +258,11 @@ impl Run<'_> {
             ProcessEnding::Interrupted => return None,
             ProcessEnding::TimedOut => {
                 let seconds = limits.time.as_secs_f64();
-                let mut why = format!("still running after {seconds} s");
-                if self.plan.by_lines {
-                    why += " without a line: with --lines a program answers each line as it comes, \
-                            flushes its output and does not read to the end of its input";
-                }
-                Judgement::new(Label::TimedOut, why)
+                let how = self.without_an_answer();
+                Judgement::new(
+                    Label::TimedOut,
+                    format!("still running after {seconds} s{how}"),
+                )
             }
             ProcessEnding::TooLong => {
                 let bytes = limits.output;
@@ -261,6 +277,9 @@ impl Run<'_> {
                 ..
             } => match String::from_utf8(stdout) {
                 Ok(text) => {
+                    if !text.is_empty() {
+                        self.has_answered.store(true, Ordering::Relaxed);
+                    }
                     let begun = Instant::now();
                     let is_over = || begun.elapsed() > limits.time || watch.is_cancelled();
                     judge_until(case, &text, &is_over)
