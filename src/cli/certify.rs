@@ -223,6 +223,9 @@ struct Judged {
     claims: Vec<Claim>,
     /// What the checker has read off each claim.
     verdicts: Vec<AcceptedClaim>,
+    /// The place in the report, from 0, of the solution that each claim is about; none once the
+    /// claims are lifted.
+    places: Vec<usize>,
     refused: Vec<Refused>,
 }
 
@@ -309,9 +312,11 @@ impl Judged {
         let sifted = sift(problem, lifted);
         self.claims = sifted.accepted;
 
-        for (index, reason) in sifted.refused {
+        let places = std::mem::take(&mut self.places);
+        for (number, reason) in sifted.refused {
+            let index = places[number];
             let text = format!("undecided: the checker refuses the lifted claim: {reason}");
-            aside(&format!("claim {index}: {text}"));
+            aside(&format!("solution {index}: {text}"));
             let finding = Examination {
                 verdict: ExaminationVerdict::Undecided,
                 text,
@@ -516,6 +521,7 @@ impl<'a> Certifying<'a> {
             Ok((claim, verdict)) => {
                 judged.claims.push(claim);
                 judged.verdicts.push(verdict);
+                judged.places.push(index);
             }
             Err(reason) => {
                 let finding = self.look_nearby(candidate, &reason);
@@ -620,4 +626,48 @@ fn interval(problem: &Problem, proved: &Completed) -> String {
         window.into()
     };
     format!("with {word} in {}", window_text(window))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_engine::certify::certify;
+    use mceip_model::file::read_problem;
+    use mceip_model::reduction::reduce;
+
+    const PROBLEM: &str = include_str!("../../spec/examples/two-particles.json");
+
+    /// The claim with a polynomial of which its value is no root.
+    fn wrong_claim(claim: &Claim) -> Claim {
+        let Claim::ExactSolution(mut wrong) = claim.clone() else {
+            panic!("an exact claim")
+        };
+        wrong.polynomial.reverse();
+        Claim::ExactSolution(wrong)
+    }
+
+    #[test]
+    fn a_refused_lifted_claim_has_its_place_in_the_report() {
+        let problem = read_problem(PROBLEM, Path::new(".")).unwrap();
+        let Body::System(system) = problem.body() else {
+            panic!("a system")
+        };
+        let pencil = reduce(&problem).unwrap().pencil;
+        let candidate = Candidate {
+            value: 1.48,
+            x: vec![0.5, 0.5],
+        };
+        let claim = certify(&problem, &pencil, &candidate).unwrap();
+
+        let mut judged = Judged {
+            claims: vec![claim.clone(), wrong_claim(&claim)],
+            places: vec![0, 4],
+            ..Judged::default()
+        };
+        judged.lift(&problem, system);
+
+        assert_eq!(judged.claims.len(), 1);
+        let places: Vec<usize> = judged.refused.iter().map(|r| r.index).collect();
+        assert_eq!(places, [4]);
+    }
 }
