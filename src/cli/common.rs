@@ -286,11 +286,17 @@ fn read_once(what: &'static str, path: &Path) -> Result<String, ModelError> {
 
 /// `a,b` with b empty or `inf` for infinity; for eigenvalues a may be empty or `-inf`.
 pub(super) fn parse_window(text: &str, unknown: Unknown) -> Result<RealWindow, CliError> {
+    let begins_below_zero = text.trim_start().starts_with('-');
     let expected = match unknown {
+        Unknown::Lambda2 if begins_below_zero => {
+            "a,b with 0 <= a <= b (b may be inf; a mode with lambda^2 < 0 does not grow)"
+        }
+        Unknown::Mu if begins_below_zero => {
+            "a,b with 0 <= a <= b (b may be inf; mu is not negative)"
+        }
         Unknown::Lambda2 | Unknown::Mu => "a,b with 0 <= a <= b (b may be inf)",
         Unknown::Eigenvalue => {
-            "a,b with a <= b and 0 <= b (a may be -inf, b inf; for values below 0 alone change the \
-             sign of the matrix b, and those of the values)"
+            "a,b with a <= b and 0 <= b (a may be -inf, b inf; a,0 has the values below 0 from a on)"
         }
     };
     window_of(text, unknown).ok_or_else(|| CliError::option("window", expected, text))

@@ -401,7 +401,10 @@ pub enum ModelError {
         unknown: &'static str,
     },
     /// A window that is empty or negative.
-    #[error("expected a window 0 <= min <= max, got min = {min}, max = {max}")]
+    #[error(
+        "expected a window 0 <= min <= max, got min = {min}, max = {max}{}",
+        if min.is_negative() { NOT_NEGATIVE } else { "" }
+    )]
     Window {
         /// Lower end.
         min: Rational,
@@ -543,9 +546,11 @@ fn remedy_for(what: &str) -> &'static str {
     }
 }
 
+/// Why a window of lambda^2 or mu begins at 0 or above.
+const NOT_NEGATIVE: &str = " (a mode with lambda^2 < 0 does not grow, and mu is not negative)";
+
 /// What to do for a window that ends below 0.
-const BELOW_ZERO_ALONE: &str =
-    " (for values below 0 alone change the sign of the matrix b, and those of the values)";
+const BELOW_ZERO_ALONE: &str = " (one that ends at 0 has the values below 0 too)";
 
 const BESIDE_PROBLEM: &str = "`mceip check PROBLEM CERTIFICATE` reads it beside its problem";
 
