@@ -13,6 +13,7 @@ mod loads;
 mod watched;
 
 use contact::Contacts;
+use mceip::analysis::AnalysisError;
 use mceip::{Certificate, Error, LEAN_FORMAT, Matrix, Problem, Rational, Rejected, Unknown};
 use mceip_check::Provable;
 use mceip_check::certificate::{
@@ -20,7 +21,7 @@ use mceip_check::certificate::{
     StabilityCertificate,
 };
 use mceip_model::file::require_format;
-use mceip_model::{Body, Radii, Window};
+use mceip_model::{Body, ModelError, Radii, Window};
 use mceip_paper::{
     Asymmetry, ContactTable, Plausibility, PlausibilityInput, asymmetry, rows_alone,
 };
@@ -395,7 +396,26 @@ fn refused(error: Error) -> PyErr {
         Error::NotCertified(why) if !why.is_no_candidate() => {
             NotCertifiedError::new_err(error.to_string())
         }
-        _ => MceipError::new_err(error.to_string()),
+        _ => MceipError::new_err(message(&error)),
+    }
+}
+
+/// Why there is no answer, with arguments of Python where the program names options.
+fn message(error: &Error) -> String {
+    match error {
+        Error::NoFriction => "friction: expected a number (`friction=...`), got None".into(),
+        Error::Analyze(AnalysisError::NoMass) => {
+            "E3: expected a mass, got None (`Problem.from_matrices`, `Body` take `mass`): growth in \
+             time needs K, M and mu; the mu of lambda = 0 alone needs no mass (`Problem.complete` \
+             of `Problem.friction_threshold`)"
+                .into()
+        }
+        Error::Model(ModelError::FrictionNotPositive { particle, friction }) => format!(
+            "E7: expected friction > 0 where contacts slip (contact {particle}), got {friction}: \
+             without friction nothing is in impending slip; `Problem.analyze(friction=0)` asks \
+             for flat obstacles without friction"
+        ),
+        _ => error.to_string(),
     }
 }
 

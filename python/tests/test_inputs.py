@@ -134,6 +134,19 @@ def test_reactions_that_contradict_the_state_are_refused():
         with_contacts([mceip.Contact(**ROW, reaction_normal=-1)])
 
 
+def test_messages_name_arguments_and_no_options():
+    threshold = mceip.Problem.friction_threshold(STIFFNESS, [ROW])
+    for refused, message in [
+        (threshold.analyze, r"friction=\.\.\."),
+        (lambda: threshold.analyze(friction=1), "Problem.from_matrices"),
+        (lambda: with_contacts([ROW], friction=0), r"Problem.analyze\(friction=0\)"),
+        (lambda: with_contacts([{**ROW, "gap": 1}]), "candidates of a body under loads"),
+    ]:
+        with pytest.raises(mceip.MceipError, match=message) as error:
+            refused()
+        assert "--" not in str(error.value)
+
+
 def test_reactions_of_contacts_are_those_of_a_table():
     # Turned by 30 degrees: r_T = -1.5, r_N = -1 along tangent and normal, in doubles.
     cosine, sine = np.cos(np.radians(30.0)), np.sin(np.radians(30.0))

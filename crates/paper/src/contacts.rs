@@ -337,7 +337,8 @@ struct Columns {
 const CONTACTS: Columns = Columns {
     needed: &[Column::Tangential, Column::Normal, Column::State],
     foreign: &[Column::Gap],
-    why: "a contact state says whether a gap is open; gaps belong to a body under loads (--loads)",
+    why: "a contact state says whether a gap is open; gaps belong to the candidates of a body under \
+          loads",
 };
 
 const CANDIDATES: Columns = Columns {
@@ -348,7 +349,7 @@ const CANDIDATES: Columns = Columns {
         Column::ReactionNormal,
         Column::Curvature,
     ],
-    why: "with --loads the states and reactions follow from the loads, and obstacles are flat",
+    why: "under loads the states and reactions follow from them, and obstacles are flat",
 };
 
 /// Where the columns stand, in the order of [`Column::ALL`]; refuses a header without those needed
