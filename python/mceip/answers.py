@@ -22,6 +22,7 @@ from .exact import (
     fraction_of,
     fraction_or_none,
     interval_of,
+    known_text,
     number_text,
     range_text,
     short_text,
@@ -442,13 +443,17 @@ class Mode:
     v: Vector = field(compare=False)
     names: list[str]
 
+    @property
+    def _rate(self) -> str:
+        return f"{known_text(self.growth_rate, self.lambda2, 6)} 1/s"
+
     def __repr__(self) -> str:
         slipping, sticking = (
             listed([self.names[place] for place in places])
             for places in (self.slipping, self.sticking)
         )
         return two_lines(
-            f"Mode growing at {self.growth_rate:.6g} 1/s, lambda^2 {placed(self.lambda2)}",
+            f"Mode growing at {self._rate}, lambda^2 {placed(self.lambda2)}",
             f"contacts that slip: {slipping}; that do not: {sticking}",
         )
 
@@ -567,7 +572,7 @@ class Analysis:
 
     def __repr__(self) -> str:
         friction = short_text(fraction_of(self.answer["friction"]))
-        rates = listed([f"{mode.growth_rate:.6g} 1/s" for mode in self.modes])
+        rates = listed([mode._rate for mode in self.modes])
         growing = f", growing at {rates}" if self.modes else ""
         return two_lines(
             f"Analysis divergence at mu = {friction}: {self.verdict}{growing}",
@@ -753,7 +758,7 @@ def indices(numbers: Sequence[int]) -> str:
 
 
 def values(solutions: Sequence[Solution]) -> str:
-    return listed([f"{solution.value:.10g}" for solution in solutions])
+    return listed([known_text(solution.value, solution.enclosure) for solution in solutions])
 
 
 def placed(interval: Interval) -> str:
@@ -767,7 +772,8 @@ def table_of_solutions(solutions: Sequence[Solution]) -> str:
     rows = []
     for solution in solutions:
         support = ", ".join(str(index) for index in solution.support)
-        rows.append([f"{solution.value:.10g}", str(solution.enclosure), support])
+        value = known_text(solution.value, solution.enclosure)
+        rows.append([value, str(solution.enclosure), support])
     return html_table([unknown, "enclosure", "support"], rows)
 
 

@@ -88,6 +88,15 @@ def short_text(number: Fraction) -> str:
         return number_text(number)
 
 
+def known_text(number: float, enclosure: Interval, most: int = 10) -> str:
+    """A number to the digits that its enclosure knows, and one more; `most` where it is exact."""
+    lower, upper = enclosure
+    if lower == upper:
+        return f"{number:.{most}g}"
+    known = magnitude(max(abs(lower), abs(upper))) - magnitude(upper - lower)
+    return f"{number:.{min(max(known, 0) + 2, most)}g}"
+
+
 def decimal_text(digits: int, places: int) -> str:
     """digits / 10^places without zeros at its end."""
     number = Decimal(digits).scaleb(-places).normalize()

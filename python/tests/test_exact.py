@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from mceip.exact import Interval, fraction_of, number_text
+from mceip.exact import Interval, fraction_of, known_text, number_text
 
 
 @pytest.mark.parametrize(
@@ -22,6 +22,20 @@ from mceip.exact import Interval, fraction_of, number_text
 )
 def test_intervals_in_decimals(ends, expected):
     assert str(Interval(*map(fraction_of, ends))) == expected
+
+
+@pytest.mark.parametrize(
+    "number, ends, expected",
+    [
+        (1.5500001, ("1.2", "1.9"), "1.6"),
+        (1234.5678, ("1234", "1235"), "1234.6"),
+        (1 / 3, ("0.33333", "0.33334"), "0.3333333"),
+        (2 / 3, ("2/3", "2/3"), "0.6666666667"),
+        (0.0, ("-0.1", "0.1"), "0"),
+    ],
+)
+def test_numbers_have_the_digits_that_are_known(number, ends, expected):
+    assert known_text(number, Interval(*map(fraction_of, ends))) == expected
 
 
 def test_what_is_printed_encloses():
