@@ -121,6 +121,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         });
     }
     let analysis = question.run()?;
+    // What cannot be written takes nothing else along.
+    let written = keeping.map(|proofs| job.watched(|watch| proofs.write_all(&analysis, watch)));
     let is_drawn = report.is_some() || pictures.are_wanted();
     let branches = if is_drawn {
         let chart = job.watched(|watch| page::branches(&analysis, system, watch));
@@ -128,9 +130,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         None
     };
-
-    // What cannot be written takes nothing else along.
-    let written = keeping.map(|proofs| job.watched(|watch| proofs.write_all(&analysis, watch)));
     let are_named = args.json || report.is_some();
     let files = match written {
         Some(files) => files,

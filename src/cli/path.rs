@@ -200,6 +200,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let path = followed.as_path();
     let names = loads.step_names();
+    // What shows the path alone is written before the answers that take long. What cannot be
+    // written takes nothing else along.
+    let told = |written: Result<(), CliError>| {
+        written.inspect_err(|e| job.note(&format!("mceip: {e}; the run goes on")))
+    };
+    let states = folder.map_or(Ok(()), |folder| told(write_states(&followed, &folder)));
+    let reactions = reactions.map_or(Ok(()), |file| told(file.write(&followed.reactions_csv())));
+    let picture = picture.map_or(Ok(()), |picture| {
+        told(picture.write(&pages::path_chart(&followed, &names).to_svg()))
+    });
 
     let say = |progress: &Progress<'_>| job.say(progress);
     let watch = Watch::new(job.cancel(), &say);
@@ -267,13 +277,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         certified,
         is_interrupted: job.is_cancelled(),
     };
-    // What cannot be written takes nothing else along.
-    let states = folder.map_or(Ok(()), |folder| outcome.write_states(&folder));
-    let reactions = reactions.map_or(Ok(()), |file| file.write(&followed.reactions_csv()));
-    let picture = picture.map_or(Ok(()), |picture| {
-        picture.write(&pages::path_chart(&followed, &names).to_svg())
-    });
-
     print_answer(args.json, || outcome.json(), || outcome.text())?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
     states.and(reactions).and(picture).and(pages)?;
@@ -458,31 +461,31 @@ impl PathOutcome<'_> {
             .map(|node| candidate_name(candidates, node))
             .collect()
     }
+}
 
-    /// The problem of each stretch with impending slip; those of an earlier path go. One that is
-    /// refused is told when the others are written.
-    fn write_states(&self, folder: &Folder) -> Result<(), CliError> {
-        let mut refused = Ok(());
-        let mut written = Vec::new();
-        for (k, stretch) in self.path().stretches.iter().enumerate() {
-            let states = stretch.equilibrium_states();
-            if !states.iter().any(states::is_slip) {
-                continue;
-            }
-
-            match self.followed.problem_in(k, Unknown::Mu) {
-                Ok(problem) => {
-                    let file = format!("stretch-{k:03}.json");
-                    folder.write(&file, write_problem(&problem).as_bytes())?;
-                    written.push(k);
-                }
-                Err(why) => refused = refused.and(Err(why.into())),
-            }
+/// The problem of each stretch with impending slip; those of an earlier path go. One that is
+/// refused is told when the others are written.
+fn write_states(followed: &LoadPath, folder: &Folder) -> Result<(), CliError> {
+    let mut refused = Ok(());
+    let mut written = Vec::new();
+    for (k, stretch) in followed.as_path().stretches.iter().enumerate() {
+        let states = stretch.equilibrium_states();
+        if !states.iter().any(states::is_slip) {
+            continue;
         }
 
-        folder.keep_numbered("stretch", &written)?;
-        refused
+        match followed.problem_in(k, Unknown::Mu) {
+            Ok(problem) => {
+                let file = format!("stretch-{k:03}.json");
+                folder.write(&file, write_problem(&problem).as_bytes())?;
+                written.push(k);
+            }
+            Err(why) => refused = refused.and(Err(why.into())),
+        }
     }
+
+    folder.keep_numbered("stretch", &written)?;
+    refused
 }
 
 /// What is certified of a stretch.

@@ -12,7 +12,7 @@ use mceip_testkit::known;
 use std::fs::OpenOptions;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The program, to be run with this command line.
 fn program(command: &str) -> Command {
@@ -282,6 +282,30 @@ fn checkpoints_change_nothing_of_the_certificate() {
         "{}",
         run.stderr
     );
+}
+
+/// Files that show the path alone are on the disk while its critical friction is still sought.
+#[test]
+fn a_path_is_written_before_the_questions_about_it() {
+    let folder = Folder::new();
+    let [picture, states, reactions] = ["p.svg", "states", "r.csv"].map(|name| folder.path(name));
+    let loads = example("own-critical");
+    let files = format!("--picture {picture} --states {states} --reactions {reactions}");
+    let mut path = started(&format!(
+        "path {loads} {files} --own-critical 0.7,1.5 --grid 10000"
+    ));
+
+    let begun = Instant::now();
+    while !Path::new(&picture).exists() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(path.try_wait().unwrap().is_none(), "it is at work");
+    for file in [picture, format!("{states}/stretch-003.json"), reactions] {
+        assert!(Path::new(&file).exists(), "{file}");
+    }
+
+    interrupt(&path, Duration::ZERO);
+    assert_eq!(path.wait().unwrap().code(), Some(130));
 }
 
 /// An interrupt ends a check, which has nothing to keep, with exit 130.
