@@ -97,6 +97,9 @@ const DEPTH: f64 = 6.0;
 const NAME_SIZE: f64 = 10.0;
 const NAME_LETTER: f64 = 0.65;
 
+/// Distance of a name from its particle, px.
+const NAME_GAP: f64 = RADIUS + 8.0;
+
 /// Length of the bar that shows the unit of length, px, at most.
 const BAR: f64 = 120.0;
 
@@ -383,16 +386,20 @@ impl BodyDrawing<'_> {
                 continue;
             };
 
-            let (x, y) = self.along_axes(&particle.into_obstacle(), node);
-            let length = x.hypot(y);
-            if length > 0.0 {
-                // On paper y points down.
-                let normal = (x / length, -y / length);
+            if let Some(normal) = self.normal_on_paper(particle, node) {
                 group.push(obstacle(on_paper[node], normal));
             }
         }
 
         group
+    }
+
+    /// The unit vector into the obstacle of a particle at a node, on paper, where y points down;
+    /// `None` where it cannot be drawn.
+    fn normal_on_paper(&self, particle: &Particle, node: usize) -> Option<(f64, f64)> {
+        let (x, y) = self.along_axes(&particle.into_obstacle(), node);
+        let length = x.hypot(y);
+        (length > 0.0).then(|| (x / length, -y / length))
     }
 
     /// The components along x and y of a direction at a node.
@@ -424,8 +431,8 @@ impl BodyDrawing<'_> {
         }
     }
 
-    /// The names of the particles, each below its marker, but for those that would cover another
-    /// one.
+    /// The names of the particles, each on the other side of the obstacle's surface, but for those
+    /// that would cover another one.
     fn names(&self, on_paper: &[(f64, f64)]) -> Element {
         let mut names = Element::new("g").with("class", "names");
         let mut taken: Vec<[f64; 3]> = Vec::new(); // left, right, y
@@ -435,7 +442,10 @@ impl BodyDrawing<'_> {
             };
 
             let half = 0.5 * NAME_LETTER * NAME_SIZE * name.chars().count() as f64;
-            let (x, y) = (on_paper[node].0, on_paper[node].1 + RADIUS + 20.0);
+            let below = (0.0, 1.0);
+            let (normal_x, normal_y) = self.normal_on_paper(particle, node).unwrap_or(below);
+            let x = on_paper[node].0 + normal_x * (NAME_GAP + half);
+            let y = on_paper[node].1 + normal_y * (NAME_GAP + 0.8 * NAME_SIZE) + 0.4 * NAME_SIZE;
             let [left, right] = [x - half, x + half];
             let covers = |[from, to, at]: &[f64; 3]| {
                 (at - y).abs() < NAME_SIZE

@@ -17,7 +17,7 @@ pub struct ChartPoint {
     pub mu: f64,
     /// lambda^2, 1/s^2.
     pub lambda2: f64,
-    /// Slip variables with x > 0.
+    /// The complementarity variables with x > 0.
     pub support: Vec<usize>,
 }
 
@@ -293,13 +293,13 @@ fn push_keys(picture: &mut Picture, branches: &Branches, supports_change: bool) 
     if has_levels {
         lines.push(Key {
             sign: branch_sign,
-            meaning: "solutions with the same slip nodes".into(),
+            meaning: "solutions with the same support".into(),
         });
     }
     if supports_change {
         lines.push(Key {
             sign: change_sign,
-            meaning: "the slip nodes change".into(),
+            meaning: "the support changes".into(),
         });
     }
 

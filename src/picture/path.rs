@@ -31,9 +31,16 @@ const AREA: Rectangle = Rectangle {
     bottom: 330.0,
 };
 
+/// Left end of the keys above the chart, and the width of each.
+const KEYS_LEFT: f64 = LEFT + 20.0;
+const KEY_WIDTH: f64 = 160.0;
+
+/// Radius of the dots where stretches begin, px.
+const BEGIN_RADIUS: f64 = 3.0;
+
 /// What the axes say: units are those of the file.
 const LOAD: &str = "load: the amounts of the steps, one after the other";
-const RESULTANTS: &str = "resultants";
+const RESULTANTS: &str = "resultants (unit of the forces)";
 
 /// A path with the names that stand in its picture.
 pub struct PathDrawing<'a> {
@@ -249,13 +256,24 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
         push_key(picture, k, curve);
     }
 
+    let key = (KEYS_LEFT + 3.0 * KEY_WIDTH, AREA.top - 10.0);
+    picture.push(
+        Element::new("circle")
+            .at("cx", key.0)
+            .at("cy", key.1)
+            .at("r", BEGIN_RADIUS)
+            .with("fill", "#fff")
+            .with("stroke", "#000"),
+    );
+    picture.push(text(key.0 + 10.0, key.1 + 4.5, "start", "a stretch begins"));
+
     let beginnings = resultants.iter().take(path.stretches.len());
     for (k, begin) in beginnings.enumerate() {
         let load = begin.load;
         let t = begin.tangential;
         let tip = format!("stretch {k} begins at {load:.6}, T = {t:.6}");
         let data = (load, t);
-        picture.push(dot(chart.point(data), 3.0, "#fff", data, tip));
+        picture.push(dot(chart.point(data), BEGIN_RADIUS, "#fff", data, tip));
     }
 
     chart
@@ -324,7 +342,7 @@ fn shortened(name: &str, room: f64) -> Option<String> {
 
 /// The key of the curve k, in a row above the chart.
 fn push_key(picture: &mut Picture, k: usize, curve: &ChartCurve) {
-    let x = LEFT + 20.0 + 160.0 * k as f64;
+    let x = KEYS_LEFT + KEY_WIDTH * k as f64;
     let y = AREA.top - 10.0;
     let key = line((x, y), (x + 34.0, y), "#000", 1.8);
     picture.push(dashed(key, curve.dash));

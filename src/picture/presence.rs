@@ -86,6 +86,9 @@ const LETTER: f64 = 0.6;
 /// Height of the bar of members, px.
 const MEMBERS: f64 = AREA.top - 20.0;
 
+/// Left end of the key of samples where the key of members stands before it, px.
+const BESIDE_MEMBERS: f64 = AREA.left + 590.0;
+
 /// Half the width of the pointers above the band, px.
 const POINTER: f64 = 5.0;
 
@@ -246,15 +249,19 @@ fn outline_dash(is_proved: bool) -> &'static str {
 /// A sample: a dot on the axis in the shade of its verdict.
 fn sample_mark(chart: &Chart, mu: f64, verdict: Presence) -> Element {
     let tip = format!("mu = {}: {}", label(mu), verdict.word());
-    Element::new("circle")
+    sample_dot((chart.x.place(mu), AREA.bottom), verdict.fill())
         .with("class", "sample")
-        .at("cx", chart.x.place(mu))
-        .at("cy", AREA.bottom)
-        .at("r", SAMPLE_RADIUS)
-        .with("fill", verdict.fill())
-        .with("stroke", "#000")
         .with("data-mu", mu)
         .child(Element::new("title").text(tip))
+}
+
+fn sample_dot((x, y): (f64, f64), fill: &'static str) -> Element {
+    Element::new("circle")
+        .at("cx", x)
+        .at("cy", y)
+        .at("r", SAMPLE_RADIUS)
+        .with("fill", fill)
+        .with("stroke", "#000")
 }
 
 /// A pointer from above to a value of mu.
@@ -327,8 +334,17 @@ fn push_keys(picture: &mut Picture, presence: &PresenceChart) {
         picture.push(triangle(AREA.left + 290.0, baseline, "#000"));
         picture.push(text(AREA.left + 302.0, baseline, "start", words));
     }
+    let baseline = baseline + TEXT + 3.0;
+    if !presence.samples.is_empty() {
+        let left = match presence.members {
+            Some(_) => BESIDE_MEMBERS,
+            None => AREA.left,
+        };
+        let sign = (left + SAMPLE_RADIUS, baseline - 4.5);
+        picture.push(sample_dot(sign, "#fff"));
+        picture.push(text(left + 16.0, baseline, "start", "\u{3bc} examined"));
+    }
     if let Some([lo, hi]) = presence.members {
-        let baseline = baseline + TEXT + 3.0;
         let of = "critical \u{3bc} of every body within the radii of the data";
         let words = format!("{of}: {} to {}", label(lo), label(hi));
         let sign = [AREA.left, AREA.left + SIGN];

@@ -240,6 +240,14 @@ fn a_body_has_its_nodes_states_and_arrows() {
         names.filter_map(|n| Some(n.text()?.into())).collect()
     };
     assert_eq!(names(&tree), ["foot", "1"]);
+    // Beyond the obstacle, which lies at the upper left of the first particle, above the second.
+    let drawn = of_class(&tree, "name");
+    let particles = of_class(&tree, "node");
+    let right_of =
+        |k: usize| number(&drawn[k], "x").unwrap() - number(&particles[k], "cx").unwrap();
+    let below = |k: usize| number(&drawn[k], "y").unwrap() - number(&particles[k], "cy").unwrap();
+    assert!(right_of(0) < -10.0 && below(0) < -10.0);
+    assert!(right_of(1) == 0.0 && below(1) < -10.0);
 
     // S = 1: the first particle is about to slip against its tangent, which points to the upper
     // right at 36.87 degrees; clockwise from the right that is 143.13. The second one slips to the
@@ -442,6 +450,7 @@ fn the_path_is_drawn_as_it_is() {
     assert!(places.windows(2).all(|pair| pair[0] <= pair[1]));
     assert!(places[0] < places[places.len() - 1]);
     assert_eq!(count(&tree, "curve"), 3);
+    assert!(text.contains("resultants (unit of the forces)") && text.contains("a stretch begins"));
 
     let steps = of_class(&tree, "step");
     let steps: Vec<_> = steps.iter().filter_map(|step| step.text()).collect();
@@ -667,6 +676,7 @@ fn presence_of_every_kind() -> PresenceChart {
 fn presence_is_drawn_at_its_values_of_mu() {
     let presence = presence_of_every_kind();
     let text = sound(&presence_picture("presence", &presence));
+    assert!(text.contains("\u{3bc} examined"), "the dots on the axis");
     let tree = Document::parse(&text).unwrap();
 
     let ranges = of_class(&tree, "range");
@@ -730,6 +740,7 @@ fn presence_is_drawn_at_its_values_of_mu() {
     };
     let text = sound(&presence_picture("nothing", &nothing));
     assert!(!text.contains("NaN") && !text.contains("inf"));
+    assert!(!text.contains("examined"));
 }
 
 #[test]
@@ -811,6 +822,9 @@ fn a_report_is_one_page_that_needs_nothing_else() {
     // At rest, and at the end of each of the two steps.
     let bodies = 3;
     assert_eq!(count_tags(&tree, "svg"), 3 + bodies + modes);
+
+    let first_step = read(&format!("{pictures}/step-01.svg"));
+    assert!(first_step.contains("Contact states at 1 of step press"));
 
     let files = names_in(&pictures);
     let has_png = cfg!(feature = "png");
