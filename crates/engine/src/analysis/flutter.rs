@@ -13,6 +13,7 @@
 
 use super::families::Families;
 use crate::dense::{rounded, transposed};
+use crate::run::Watch;
 use crate::search::complete::pieces::matrix::{absolute, largest_entry};
 use crate::tolerance::{FLUTTER_ANGLE, FLUTTER_ROUNDING};
 use mceip_exact::{Rational, whole};
@@ -30,7 +31,8 @@ pub struct Flutter {
     pub growth_rate: f64,
     /// Im lambda of that one, rad/s.
     pub frequency: f64,
-    /// Where in mu they begin; `None` without any, or where that was not looked for.
+    /// Where in mu they begin; `None` without any, where that was not looked for, and after an
+    /// interrupt.
     pub onset: Option<Onset>,
 }
 
@@ -87,14 +89,14 @@ const HALVINGS: u32 = 12;
 
 /// The complex lambda^2 at mu and their onset; `None` beyond the largest order, without a mass, or
 /// where doubles fail. Particles with zero reaction have no such pencil either: their friction
-/// depends on the sign of v.
-pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
+/// depends on the sign of v. An interrupt is heard between the eigenproblems.
+pub(super) fn flutter(families: &Families, mu: &Rational, watch: &Watch<'_>) -> Option<Flutter> {
     if !families.zero.is_empty() {
         return None;
     }
 
     let family = &families.own;
-    let mut eigenvalues = complex_at(family, mu)?;
+    let mut eigenvalues = complex_at(family, mu, watch)?;
     eigenvalues.sort_by(|p, q| by_ascending_frequency(*p, *q));
 
     let mut growth_rate = 0.0;
@@ -109,7 +111,7 @@ pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
 
     let is_cheap = family.stiffness.order() <= LARGEST_ORDER_OF_ONSET;
     let onset = if is_cheap && !eigenvalues.is_empty() {
-        let has_some = |mu: &Rational| Some(!complex_at(family, mu)?.is_empty());
+        let has_some = |mu: &Rational| Some(!complex_at(family, mu, watch)?.is_empty());
         onset(mu, &has_some)
     } else {
         None
@@ -124,7 +126,7 @@ pub(super) fn flutter(families: &Families, mu: &Rational) -> Option<Flutter> {
 }
 
 /// Where in (0, mu] complex lambda^2 begin, given that there are some at mu. `None` if there are
-/// some at 0 already, or where doubles fail.
+/// some at 0 already, where doubles fail, or after an interrupt.
 fn onset(mu: &Rational, has_some: &dyn Fn(&Rational) -> Option<bool>) -> Option<Onset> {
     let step = mu / whole(VALUES);
     let mut onset = Onset {
@@ -157,10 +159,10 @@ fn onset(mu: &Rational, has_some: &dyn Fn(&Rational) -> Option<bool>) -> Option<
 }
 
 /// The complex lambda^2 at mu, in no particular order; `None` beyond the largest order, without a
-/// mass, or where doubles fail.
-fn complex_at(family: &MuFamily, mu: &Rational) -> Option<Vec<(f64, f64)>> {
+/// mass, where doubles fail, or after an interrupt.
+fn complex_at(family: &MuFamily, mu: &Rational, watch: &Watch<'_>) -> Option<Vec<(f64, f64)>> {
     let mass = family.mass.as_ref()?;
-    if family.stiffness.order() > LARGEST_ORDER {
+    if family.stiffness.order() > LARGEST_ORDER || watch.is_cancelled() {
         return None;
     }
 
@@ -252,7 +254,27 @@ fn root((re, im): (f64, f64)) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Cancel;
     use mceip_exact::rational;
+    use mceip_oracle::TwoParticles;
+    use mceip_paper::two_particles;
+
+    #[test]
+    fn an_interrupt_is_heard_before_an_eigenproblem() {
+        let data = TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            k: whole(1),
+            m: whole(2),
+            mu: whole(1),
+            signs: (1, 1),
+        };
+        let families = Families::of(&two_particles(&data).unwrap()).unwrap();
+
+        let stopped = Cancel::requested();
+        assert!(flutter(&families, &whole(1), &Watch::nobody()).is_some());
+        assert!(flutter(&families, &whole(1), &Watch::silent(&stopped)).is_none());
+    }
 
     /// Complex from 1/3 to 1/2 and from 2 on.
     fn has_some(mu: &Rational) -> Option<bool> {

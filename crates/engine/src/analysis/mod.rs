@@ -130,9 +130,8 @@ fn analyse_in_pool(
     };
     let stability_and_flutter = || {
         let stable = stability(&model.quiet(), &known);
-        let is_stopped = watch.is_cancelled();
-        let flutter = (!is_stopped).then(|| flutter::flutter(&ground.families, friction));
-        (stable, flutter.flatten())
+        let flutter = flutter::flutter(&ground.families, friction, watch);
+        (stable, flutter)
     };
     // An error of one is told when the other has ended.
     let (over_friction, (stable, flutter)) = rayon::join(over_friction, stability_and_flutter);
