@@ -1,5 +1,5 @@
-(* What the program says of statements that are true: the verdict line and the sentences under it,
-   in the words of `mceip check`.  Trusted.
+(* What the program says of statements that are true: the verdict line and the sentences under it.
+   They name the question and the supports as `mceip check` does.  Trusted.
 
    The verdict line names the question: the window, the unknown, the friction of a problem whose
    unknown is lambda2, and the digest; and it says where the window is not all of the problem's.
@@ -124,7 +124,7 @@ let equilibrium digest (mu, amounts, states) =
   print_newline ()
 
 let claim (problem : Problem.t) side (claim : Kernel.asserted) =
-  Printf.printf "claim: %s in %s, slip %s\n" problem.unknown
+  Printf.printf "claim: %s in %s, support %s\n" problem.unknown
     (show_interval ~side claim.asserted_from claim.asserted_to)
     (show_list claim.asserted_support)
 
@@ -206,28 +206,32 @@ let exit_code sets = if List.for_all is_closed sets then 0 else 3
 
 let names slip positions = show_list (List.map (fun i -> slip.(i)) positions)
 
+(* The supports in a region: the variables that move there, and any of those not decided. *)
+let supports slip region =
+  let certain = "support " ^ names slip (moving region) in
+  let decided = moving region @ resting region in
+  let is_undecided i = not (List.mem i decided) in
+  match List.filter is_undecided (List.init (Array.length slip) Fun.id) with
+  | [] -> certain
+  | undecided -> certain ^ " and any of " ^ names slip undecided
+
 (* Lists are in the order of the values t. *)
 let ascending side l = match side with Above -> l | Below -> List.rev l
 
 let say_set unknown slip (side, _, (all : Kernel.solution_set)) =
   List.iter (fun (y : Kernel.yield) ->
-      Printf.printf "solution: %s in %s, slip %s\n" unknown
+      Printf.printf "solution: %s in %s, support %s\n" unknown
         (decimals side y.yield_from y.yield_to)
         (names slip (moving y.yield_region))) (ascending side (List.rev all.solutions_in));
   List.iter (fun (region, (h : Kernel.holding)) ->
-      Printf.printf "family: %s, slip %s, %s at each\n" (show_place unknown side h.held_place)
+      Printf.printf "family: %s, support %s, %s at each\n" (show_place unknown side h.held_place)
         (names slip (moving region))
         (if h.held_alone then "one solution" else "a solution"))
     (ascending side (listed_once all.families_of_set));
-
-  let undecided region =
-    let decided = moving region @ resting region in
-    List.filter (fun i -> not (List.mem i decided)) (List.init (Array.length slip) Fun.id) in
   List.iteri (fun k (r : Kernel.region) ->
       if k < shown_regions then
-        Printf.printf "open: %s in %s, moving %s, undecided %s\n" unknown
-          (show_interval ~side r.lower r.upper) (names slip (moving r))
-          (names slip (undecided r)))
+        Printf.printf "open: %s in %s, %s\n" unknown (show_interval ~side r.lower r.upper)
+          (supports slip r))
     (ascending side all.open_regions);
   let more = List.length all.open_regions - shown_regions in
   if more > 0 then Printf.printf "open: %d more regions (see the certificate)\n" more
@@ -236,13 +240,13 @@ let at_infinity (problem : Problem.t) slip (all : Kernel.solution_set) =
   verdict (word_of [all]) (count_and_others ["at infinity", all]) (name_of problem);
   print_newline ();
   List.iter (fun (y : Kernel.yield) ->
-      Printf.printf "solution: at infinity, slip %s\n" (names slip (moving y.yield_region)))
+      Printf.printf "solution: at infinity, support %s\n" (names slip (moving y.yield_region)))
     (List.rev all.solutions_in);
   List.iter (fun (region, (h : Kernel.holding)) ->
-      Printf.printf "family: at infinity, slip %s, %s\n" (names slip (moving region))
+      Printf.printf "family: at infinity, support %s, %s\n" (names slip (moving region))
         (if h.held_alone then "one solution" else "a solution"))
     (listed_once all.families_of_set);
-  List.iter (fun r -> Printf.printf "open: at infinity, moving %s\n" (names slip (moving r)))
+  List.iter (fun r -> Printf.printf "open: at infinity, %s\n" (supports slip r))
     all.open_regions;
   exit_code [all]
 

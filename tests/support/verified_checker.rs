@@ -619,20 +619,20 @@ fn read_window(text: &str) -> Option<RealWindow> {
     RealWindow::of_parts(Some(&reflected), None).pop()
 }
 
-/// `[a, b], slip [0, 2]`: an interval, the support.
+/// `[a, b], support [0, 2]`: an interval, the support.
 fn valued(text: &str) -> Option<AcceptedClaim> {
-    let (interval, support) = text.split_once(", slip ")?;
+    let (interval, support) = text.split_once(", support ")?;
     Some(AcceptedClaim {
         support: indices(support)?,
         value: read_interval(interval)?,
     })
 }
 
-/// `every lambda2 between V and V, slip [0, 2], one solution at each`; V is a number or
+/// `every lambda2 between V and V, support [0, 2], one solution at each`; V is a number or
 /// `a value in [a, b]`.
 fn family(text: &str, word: &str) -> Option<SolutionFamily> {
     let (rest, how_many) = text.rsplit_once(", ")?;
-    let (place, support) = rest.rsplit_once(", slip ")?;
+    let (place, support) = rest.rsplit_once(", support ")?;
 
     let (from, to, is_point) = if let Some(value) = place.strip_prefix(&format!("{word} = ")) {
         let value = enclosed(value)?;
@@ -656,10 +656,12 @@ fn family(text: &str, word: &str) -> Option<SolutionFamily> {
     })
 }
 
-/// `[a, b], moving [0, 2], undecided [1]`; the other complementarity variables are at rest.
+/// `[a, b], support [0, 2] and any of [1]`; the other complementarity variables are at rest.
 fn open_region(text: &str, slip: &[usize]) -> Option<OpenRegion> {
-    let (window, states) = text.split_once(", moving ")?;
-    let (moving, undecided) = states.split_once(", undecided ")?;
+    let (window, supports) = text.split_once(", support ")?;
+    let (moving, undecided) = supports
+        .split_once(" and any of ")
+        .unwrap_or((supports, "[]"));
     let window = read_window(window)?;
     let moving = indices(moving)?;
     let undecided = indices(undecided)?;
@@ -709,13 +711,14 @@ fn sentences_are_read() {
         Statement::read(sentence, &others, "mu", &[0, 1, 2])
     };
 
-    let one = "1 solution in [0, infinity), and no other\nsolution: mu in [1.4, 3/2], slip [0, 2]";
+    let one =
+        "1 solution in [0, infinity), and no other\nsolution: mu in [1.4, 3/2], support [0, 2]";
     let cover = read(one).unwrap().cover.unwrap();
     assert_eq!(cover.said.solutions[0].support, [0, 2]);
     assert_eq!(cover.announced.solutions, 1);
 
     let open = "2 solutions and families of them in [0, 4], and no other outside 1 open region\n\
-                open: mu in [1, 2], moving [0], undecided [1, 2]";
+                open: mu in [1, 2], support [0] and any of [1, 2]";
     let cover = read(open).unwrap().cover.unwrap();
     assert_eq!(cover.said.open[0].undecided, [1, 2]);
     let announced = Announced {
@@ -726,13 +729,13 @@ fn sentences_are_read() {
     assert_eq!(cover.announced, announced);
 
     let family = "0 solutions and families of them in [0, 4], and no other\nfamily: every mu \
-                  between a value in [1, 2] and 3, slip [1], a solution at each";
+                  between a value in [1, 2] and 3, support [1], a solution at each";
     let cover = read(family).unwrap().cover.unwrap();
     assert_eq!(cover.said.families[0].support, [1]);
     assert!(!cover.said.families[0].is_alone);
 
     let claim = "claims, each has a solution in [0, 4]; nothing said about others\n\
-                 claim: mu in [1, 2], slip [0]";
+                 claim: mu in [1, 2], support [0]";
     assert_eq!(read(claim).unwrap().claims.len(), 1);
 
     let none = read("no solution in [0, 4] outside 2 open regions").unwrap();
@@ -759,7 +762,7 @@ fn a_verdict_about_another_question_is_found() {
     );
 
     let wrong_in = |line: &str| {
-        let lines = [line, "solution: lambda2 in [1, 1], slip [0]"].map(String::from);
+        let lines = [line, "solution: lambda2 in [1, 1], support [0]"].map(String::from);
         falsehoods(&problem, &certificate, &lines)
     };
     assert_eq!(wrong_in(&right), Vec::<String>::new());
