@@ -89,7 +89,7 @@ def short_text(number: Fraction) -> str:
 
 
 def known_text(number: float, enclosure: Interval, most: int = 10) -> str:
-    """A number to the digits that its enclosure knows, and one more; `most` where it is exact."""
+    """A number with the digits that its enclosure determines and one more; `most` if exact."""
     lower, upper = enclosure
     if lower == upper:
         return f"{number:.{most}g}"

@@ -296,7 +296,8 @@ pub(super) fn parse_window(text: &str, unknown: Unknown) -> Result<RealWindow, C
         }
         Unknown::Lambda2 | Unknown::Mu => "a,b with 0 <= a <= b (b may be inf)",
         Unknown::Eigenvalue => {
-            "a,b with a <= b and 0 <= b (a may be -inf, b inf; a,0 has the values below 0 from a on)"
+            "a,b with a <= b and 0 <= b (a may be -inf, b inf; a,0 has the values below 0 from a \
+             on)"
         }
     };
     window_of(text, unknown).ok_or_else(|| CliError::option("window", expected, text))

@@ -337,8 +337,8 @@ struct Columns {
 const CONTACTS: Columns = Columns {
     needed: &[Column::Tangential, Column::Normal, Column::State],
     foreign: &[Column::Gap],
-    why: "a contact state says whether a gap is open; gaps belong to the candidates of a body under \
-          loads",
+    why: "a contact state says whether a gap is open; gaps belong to the candidates of a body \
+          under loads",
 };
 
 const CANDIDATES: Columns = Columns {

@@ -1,8 +1,8 @@
 //! `mceip-analysis/1`: the answer for programs.
 //!
-//! Input: an [`Analysis`], and the files of its certificates. Output: one JSON
-//! object, described in `spec/`. Enclosures are pairs of decimals rounded outwards; exact numbers
-//! are text. Called by `mceip analyze`.
+//! Input: an [`Analysis`], and the files of its certificates. Output: one JSON object, described in
+//! `spec/`. Enclosures are pairs of decimals rounded outwards; exact numbers are text. Called by
+//! `mceip analyze`.
 
 use super::answer::Analysis;
 use super::conditions::DefiniteUntil;
