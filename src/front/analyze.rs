@@ -115,7 +115,8 @@ impl<'a> Analyze<'a> {
         let friction = friction.ok_or(Error::NoFriction)?;
 
         let watch = self.watched.watch();
-        let mut analysis = analyse(self.name, system, friction, &self.options, &watch)?;
+        let mut analysis = analyse(system, friction, &self.options, &watch)?;
+        analysis.name = self.name;
         analysis.warnings = self.warnings.to_vec();
 
         Ok(analysis)

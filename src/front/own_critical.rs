@@ -699,7 +699,7 @@ impl<'a> FindOwnCritical<'a> {
             ..AnalysisOptions::default()
         };
 
-        Ok(analyse(None, &system, mu, &options, &watch.quiet())?)
+        Ok(analyse(&system, mu, &options, &watch.quiet())?)
     }
 }
 

@@ -136,8 +136,8 @@ impl AnalyzePath<'_> {
                 None => {
                     let system = body.system().with_states(held, Some(mu.clone()));
                     let system = system.map_err(AnalysisError::from);
-                    let analysis = system
-                        .and_then(|system| analyse(None, &system, mu, &options, &watch.quiet()));
+                    let analysis =
+                        system.and_then(|system| analyse(&system, mu, &options, &watch.quiet()));
                     (None, analysis)
                 }
             };

@@ -41,7 +41,7 @@ fn proofs_with_anchors(skipped: usize) -> Vec<Proof> {
         ..AnalysisOptions::default()
     };
     let watch = Watch::nobody();
-    let analysis = analyse(None, system, &whole(1), &options, &watch).unwrap();
+    let analysis = analyse(system, &whole(1), &options, &watch).unwrap();
     analysis.proofs
 }
 

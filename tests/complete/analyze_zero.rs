@@ -114,7 +114,7 @@ fn compare(index: u64, met: &mut Met) {
         threads: Some(1),
         limits: Limits { boxes: BOXES },
     };
-    let analysis = analyse(None, &system, &friction, &options, &Watch::nobody()).unwrap();
+    let analysis = analyse(&system, &friction, &options, &Watch::nobody()).unwrap();
     assert_proofs(index, &analysis);
 
     // Divergence at the friction of the file: the same number of modes.

@@ -121,7 +121,7 @@ fn analysis_of(system: &System, mu: &Rational) -> Analysis {
         samples: 0,
         ..AnalysisOptions::default()
     };
-    analyse(None, system, mu, &options, &Watch::nobody()).unwrap()
+    analyse(system, mu, &options, &Watch::nobody()).unwrap()
 }
 
 /// Radii that leave nothing definite of K_ff: what is said of the body as given stays, and of the

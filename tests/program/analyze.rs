@@ -40,7 +40,7 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
         threads: Some(1),
         ..AnalysisOptions::default()
     };
-    let analysis = analyse(None, system, mu, &options, &Watch::nobody()).unwrap();
+    let analysis = analyse(system, mu, &options, &Watch::nobody()).unwrap();
 
     for proof in &analysis.proofs {
         match &proof.certificate {
@@ -310,7 +310,7 @@ fn the_answer_says_why_a_bound_is_not_proved() {
     };
     options.limits.boxes = 1;
 
-    let analysis = analyse(None, &fold_body(), &whole(2), &options, &Watch::nobody()).unwrap();
+    let analysis = analyse(&fold_body(), &whole(2), &options, &Watch::nobody()).unwrap();
 
     let critical = &analysis.critical;
     let tried = critical.unproved.as_ref().unwrap();
@@ -747,7 +747,6 @@ fn mu_zero_is_answered_by_a_theorem() {
     nothing_is_vacuous(&unstable);
 
     let negative = analyse(
-        None,
         &system,
         &whole(-1),
         &AnalysisOptions::default(),
@@ -1125,7 +1124,7 @@ fn interrupted_work_is_undecided() {
     let options = AnalysisOptions::default();
 
     let watch = Watch::silent(&stop);
-    let analysis = analyse(None, &fold_body(), &whole(2), &options, &watch).unwrap();
+    let analysis = analyse(&fold_body(), &whole(2), &options, &watch).unwrap();
 
     assert!(analysis.interrupted);
     assert!(!analysis.is_decided());
@@ -1153,14 +1152,7 @@ fn a_check_of_absence_can_be_interrupted() {
     };
 
     let watch = Watch::new(&stop, &stop_at_check);
-    let analysis = analyse(
-        None,
-        &fold_body(),
-        &whole(2),
-        &AnalysisOptions::default(),
-        &watch,
-    )
-    .unwrap();
+    let analysis = analyse(&fold_body(), &whole(2), &AnalysisOptions::default(), &watch).unwrap();
 
     assert_eq!(checks.load(Ordering::Relaxed), 1);
     assert!(analysis.interrupted);

@@ -46,7 +46,7 @@ fn analysis(system: &System, mu: &Rational) -> Analysis {
         threads: Some(1),
         ..AnalysisOptions::default()
     };
-    analyse(None, system, mu, &options, &Watch::nobody()).unwrap()
+    analyse(system, mu, &options, &Watch::nobody()).unwrap()
 }
 
 /// The certificates of presence of an answer, each accepted once more, with their problem.
@@ -276,7 +276,7 @@ fn compare_absent_ranges(index: u64, met: &mut AbsentRanges) {
         threads: Some(1),
         ..AnalysisOptions::default()
     };
-    let analysis = analyse(None, &system, &whole(2), &options, &Watch::nobody()).unwrap();
+    let analysis = analyse(&system, &whole(2), &options, &Watch::nobody()).unwrap();
 
     for range in analysis.ranges.iter().skip(1) {
         let Evidence::Certificate(k) = range.evidence else {

@@ -16,10 +16,9 @@ use mceip_exact::Rational;
 /// Everything that is said about a system at one mu.
 #[derive(Debug, Clone)]
 pub struct Analysis {
-    /// Name of the problem.
+    /// Name of the problem; [`analyse`](super::analyse) gives none, who has the problem sets it.
     pub name: Option<String>,
-    /// What looked wrong when the problem was made; [`analyse`](super::analyse) leaves it empty,
-    /// who has the problem sets it.
+    /// What looked wrong when the problem was made, set like the name.
     pub warnings: Vec<String>,
     /// Digest of the MCEIP-lambda2 problem that was analysed; `None` for mu = 0 and where nothing
     /// slips, which are no such problems.

@@ -82,11 +82,7 @@ pub(super) fn without_friction(necessary: &Necessary, zero_count: usize) -> Dive
 }
 
 /// The analysis of a system in which nothing slips.
-pub(super) fn nothing_slips(
-    name: Option<String>,
-    system: &System,
-    friction: &Rational,
-) -> Analysis {
+pub(super) fn nothing_slips(system: &System, friction: &Rational) -> Analysis {
     let everywhere = Range {
         verdict: Verdict::Absent,
         from: Rational::zero(),
@@ -97,7 +93,7 @@ pub(super) fn nothing_slips(
     Analysis {
         members: None,
         warnings: Vec::new(),
-        name,
+        name: None,
         problem_sha256: None,
         friction: friction.clone(),
         sizes: super::sizes(system),

@@ -73,7 +73,6 @@ use num_traits::{Signed, Zero};
 /// # Errors
 /// [`AnalysisError`]: no mass, mu < 0, numbers beyond doubles, a definiteness not decided.
 pub fn analyse(
-    name: Option<String>,
     system: &System,
     friction: &Rational,
     options: &AnalysisOptions,
@@ -84,47 +83,45 @@ pub fn analyse(
         return Err(AnalysisError::TooManySamples(options.samples));
     }
     if system.slip_particles().is_empty() {
-        return Ok(by_theorem::nothing_slips(name, system, friction));
+        return Ok(by_theorem::nothing_slips(system, friction));
     }
 
+    let given = (!system.is_exact()).then(|| system.as_given());
     let in_pool = AnalysisOptions {
         threads: None,
         ..*options
     };
+    let model = AnalysisModel {
+        system: given.as_ref().unwrap_or(system),
+        options: &in_pool,
+        earlier: None,
+        watch: *watch,
+    };
     in_threads(options.threads, || {
-        analyse_in_pool(name, system, friction, &in_pool, watch)
+        analyse_in_pool(&model, system, friction)
     })
 }
 
 /// [`analyse`] for a question that is admitted, in the current pool. Searches that do not use each
 /// other's results run side by side; the proofs are in a fixed order.
 fn analyse_in_pool(
-    name: Option<String>,
+    model: &AnalysisModel<'_>,
     with_radii: &System,
     friction: &Rational,
-    options: &AnalysisOptions,
-    watch: &Watch<'_>,
 ) -> Result<Analysis, AnalysisError> {
-    let given = (!with_radii.is_exact()).then(|| with_radii.as_given());
-    let system = given.as_ref().unwrap_or(with_radii);
-    let model = AnalysisModel {
-        system,
-        options,
-        earlier: None,
-        watch: *watch,
-    };
+    let system = model.system;
+    let watch = &model.watch;
     let mut proofs = Vec::new();
-    let ground = CriticalGround::of(&model, friction, &mut proofs)?;
+    let ground = CriticalGround::of(model, friction, &mut proofs)?;
     let known = ground.known(friction);
 
     let over_friction = || -> Result<_, AnalysisError> {
-        let found = critical::critical(&model, &known, &mut proofs)?;
-        let members = given
-            .is_some()
-            .then(|| self::members(&model, with_radii, friction, &found, &mut proofs));
-        let of_ranges = ranges::ranges(&model, &known, found, &mut proofs)?;
+        let found = critical::critical(model, &known, &mut proofs)?;
+        let members = (!with_radii.is_exact())
+            .then(|| self::members(model, with_radii, friction, &found, &mut proofs));
+        let of_ranges = ranges::ranges(model, &known, found, &mut proofs)?;
         let critical = &of_ranges.critical;
-        let unbounded = unbounded::unbounded(&model, &ground.necessary, critical, &mut proofs)?;
+        let unbounded = unbounded::unbounded(model, &ground.necessary, critical, &mut proofs)?;
         watch.report(&Progress::stage("stability at rest, flutter"));
         Ok((of_ranges, members, unbounded))
     };
@@ -154,7 +151,7 @@ fn analyse_in_pool(
     let condensed = families.condensed(&necessary);
 
     Ok(Analysis {
-        name,
+        name: None,
         warnings: Vec::new(),
         problem_sha256: friction.is_positive().then(|| at_friction.problem.sha256()),
         friction: friction.clone(),
@@ -290,7 +287,7 @@ pub fn divergence_at(
 ) -> Result<(Divergence, Option<Proof>), AnalysisError> {
     error::require_question(system, friction)?;
     if system.slip_particles().is_empty() {
-        let by_theorem = by_theorem::nothing_slips(None, system, friction);
+        let by_theorem = by_theorem::nothing_slips(system, friction);
         return Ok((by_theorem.divergence, None));
     }
 
