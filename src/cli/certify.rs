@@ -8,11 +8,9 @@ use super::job::Job;
 use super::output::{self, Output};
 use crate::say::window_text;
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{AcceptedClaim, AcceptedCover, Proved};
+use mceip_check::{AcceptedClaim, AcceptedCover, ClaimChecker, Proved};
 use mceip_engine::candidate::Candidate;
-use mceip_engine::certify::{
-    Certifier, NotCertified, lifted, of_both_signs, of_negative_values, sift,
-};
+use mceip_engine::certify::{Certifier, NotCertified, lifted, of_both_signs, of_negative_values};
 use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport, Reported};
 use mceip_engine::multistart::{exact_value, is_about, same_x};
 use mceip_engine::report::counted;
@@ -118,10 +116,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 
     negative.leave_out_zeros_of(&judged);
-    let mut files = Proved::claims(&problem, std::mem::take(&mut judged.claims))?;
+    let mut files = Proved::claims(&problem, judged.take_claims())?;
     if let Some(reflected) = signs.reflected() {
-        let claims = std::mem::take(&mut negative.claims);
-        files = of_both_signs(&problem, files, Proved::claims(&reflected.problem, claims)?)?;
+        let below = Proved::claims(&reflected.problem, negative.take_claims())?;
+        files = of_both_signs(&problem, files, below)?;
         judged.add_negative(&problem, negative)?;
     }
     if let Some(folder) = &args.absence {
@@ -220,13 +218,17 @@ fn judge_on_both(
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
 #[derive(Default)]
 struct Judged {
-    claims: Vec<Claim>,
-    /// What the checker has read off each claim.
-    verdicts: Vec<AcceptedClaim>,
-    /// The place in the report, from 0, of the solution that each claim is about; none once the
-    /// claims are lifted.
-    places: Vec<usize>,
+    certified: Vec<CertifiedPoint>,
     refused: Vec<Refused>,
+}
+
+/// A solution of the report that has a certificate of its own.
+struct CertifiedPoint {
+    /// Its place in the report, from 0.
+    index: usize,
+    claim: Claim,
+    /// What the checker has read off the claim.
+    verdict: AcceptedClaim,
 }
 
 /// A solution of the report that has no certificate of its own.
@@ -303,28 +305,33 @@ impl Judged {
     /// Lifts the exact claims to the system. A lifted claim is another one than was accepted, so
     /// the checker sees it too.
     fn lift(&mut self, problem: &Problem, system: &System) {
-        let claims = std::mem::take(&mut self.claims);
-        let lifted = claims
-            .into_iter()
-            .map(|claim| as_lifted(system, problem.unknown(), claim))
-            .collect();
-
-        let sifted = sift(problem, lifted);
-        self.claims = sifted.accepted;
-
-        let places = std::mem::take(&mut self.places);
-        for (number, reason) in sifted.refused {
-            let index = places[number];
-            let text = format!("undecided: the checker refuses the lifted claim: {reason}");
-            aside(&format!("solution {index}: {text}"));
-            let finding = Examination {
-                verdict: ExaminationVerdict::Undecided,
-                text,
-                proof: None,
-                solution: None,
-            };
-            self.refused.push(Refused { index, finding });
+        let checker = ClaimChecker::new(problem);
+        for CertifiedPoint { index, claim, .. } in std::mem::take(&mut self.certified) {
+            let claim = as_lifted(system, problem.unknown(), claim);
+            match checker.verdict(problem.window(), &claim) {
+                Ok(verdict) => self.certified.push(CertifiedPoint {
+                    index,
+                    claim,
+                    verdict,
+                }),
+                Err(reason) => {
+                    let text = format!("undecided: the checker refuses the lifted claim: {reason}");
+                    aside(&format!("solution {index}: {text}"));
+                    let finding = Examination {
+                        verdict: ExaminationVerdict::Undecided,
+                        text,
+                        proof: None,
+                        solution: None,
+                    };
+                    self.refused.push(Refused { index, finding });
+                }
+            }
         }
+    }
+
+    fn take_claims(&mut self) -> Vec<Claim> {
+        let certified = std::mem::take(&mut self.certified).into_iter();
+        certified.map(|point| point.claim).collect()
     }
 
     fn count(&self, verdict: ExaminationVerdict) -> usize {
@@ -381,16 +388,22 @@ impl Judged {
             return false;
         };
 
-        let mut claims = self.claims.iter().zip(&self.verdicts);
-        claims.any(|(claim, verdict)| is_about(verdict, exact_value(claim), solution))
+        let mut certified = self.certified.iter();
+        certified.any(|point| is_about(&point.verdict, exact_value(&point.claim), solution))
+    }
+
+    /// Is this claim about a solution that has one already?
+    fn has_claim(&self, claim: &Claim) -> bool {
+        let mut certified = self.certified.iter();
+        certified.any(|point| same_x(&point.claim, claim))
     }
 
     /// Takes out solutions with the value 0 that the other side has: both sides have that value.
     fn leave_out_zeros_of(&mut self, other: &Judged) {
         let is_zero = |mut value: Algebraic| value.cmp_rational(&Rational::default()).is_eq();
-        self.claims.retain(|claim| {
-            let has_value_zero = exact_value(claim).is_some_and(is_zero);
-            !(has_value_zero && other.claims.iter().any(|known| same_x(known, claim)))
+        self.certified.retain(|point| {
+            let has_value_zero = exact_value(&point.claim).is_some_and(is_zero);
+            !(has_value_zero && other.has_claim(&point.claim))
         });
     }
 
@@ -514,15 +527,15 @@ impl<'a> Certifying<'a> {
         let value = reported.candidate.value;
         let candidate = &self.side.candidate(&reported.candidate);
         match self.certifier.certify_with_verdict(candidate) {
-            Ok((claim, _)) if judged.claims.iter().any(|c| same_x(c, &claim)) => {
+            Ok((claim, _)) if judged.has_claim(&claim) => {
                 self.job
                     .note(&format!("solution {index} (value {value}): listed before"));
             }
-            Ok((claim, verdict)) => {
-                judged.claims.push(claim);
-                judged.verdicts.push(verdict);
-                judged.places.push(index);
-            }
+            Ok((claim, verdict)) => judged.certified.push(CertifiedPoint {
+                index,
+                claim,
+                verdict,
+            }),
             Err(reason) => {
                 let finding = self.look_nearby(candidate, &reason);
                 judged.add(self.job, index, value, finding);
@@ -631,7 +644,6 @@ fn interval(problem: &Problem, proved: &Completed) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_engine::certify::certify;
     use mceip_model::file::read_problem;
     use mceip_model::reduction::reduce;
 
@@ -657,16 +669,21 @@ mod tests {
             value: 1.48,
             x: vec![0.5, 0.5],
         };
-        let claim = certify(&problem, &pencil, &candidate).unwrap();
+        let certifier = Certifier::new(&problem, &pencil);
+        let (claim, verdict) = certifier.certify_with_verdict(&candidate).unwrap();
 
-        let mut judged = Judged {
-            claims: vec![claim.clone(), wrong_claim(&claim)],
-            places: vec![0, 4],
-            ..Judged::default()
-        };
+        let mut judged = Judged::default();
+        for (index, claim) in [(0, claim.clone()), (4, wrong_claim(&claim))] {
+            let verdict = verdict.clone();
+            judged.certified.push(CertifiedPoint {
+                index,
+                claim,
+                verdict,
+            });
+        }
         judged.lift(&problem, system);
 
-        assert_eq!(judged.claims.len(), 1);
+        assert_eq!(judged.certified.len(), 1);
         let places: Vec<usize> = judged.refused.iter().map(|r| r.index).collect();
         assert_eq!(places, [4]);
     }

@@ -10,7 +10,7 @@ use crate::candidate::Candidate;
 use crate::reduction::zero_of;
 use crate::tolerance::{GIVEN_VALUE, MEANT_VALUE};
 use mceip_check::certificate::Claim;
-use mceip_check::{AcceptedClaim, ClaimChecker, Reason};
+use mceip_check::{AcceptedClaim, ClaimChecker};
 use mceip_exact::to_f64;
 use mceip_model::{Pencil, Problem, ZeroVariables};
 
@@ -192,29 +192,6 @@ pub fn certify(
     Certifier::new(problem, pencil).certify(candidate)
 }
 
-/// Claims parted by the checker's verdict.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Sifted {
-    /// Those that it accepts, in their order.
-    pub accepted: Vec<Claim>,
-    /// Those that it refuses, each with its place in the list and the reason.
-    pub refused: Vec<(usize, Reason)>,
-}
-
-/// Has the checker part claims about a problem, in the problem's window.
-pub fn sift(problem: &Problem, claims: Vec<Claim>) -> Sifted {
-    let checker = ClaimChecker::new(problem);
-    let mut sifted = Sifted::default();
-    for (index, claim) in claims.into_iter().enumerate() {
-        match checker.verdict(problem.window(), &claim) {
-            Ok(_) => sifted.accepted.push(claim),
-            Err(reason) => sifted.refused.push((index, reason)),
-        }
-    }
-
-    sifted
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,19 +241,6 @@ mod tests {
             support: vec![0, 1],
             claim: Ok(claim),
         }
-    }
-
-    #[test]
-    fn a_forged_claim_is_sifted_out_with_its_reason() {
-        let problem = problem();
-
-        let sifted = sift(&problem, vec![forged(&problem), good(&problem)]);
-
-        assert_eq!(sifted.accepted, [good(&problem)]);
-        let [(0, reason)] = &sifted.refused[..] else {
-            panic!("one refusal: {:?}", sifted.refused)
-        };
-        assert_eq!(reason.name(), "YNotZero");
     }
 
     /// Whatever is proposed, only what the checker accepts comes out.

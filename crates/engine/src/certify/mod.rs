@@ -24,7 +24,7 @@ mod proposals;
 pub(crate) mod rows;
 mod support;
 
-pub use accepted::{Certifier, Sifted, certify, sift};
+pub use accepted::{Certifier, certify};
 pub use failure::{AttemptFailure, NotCertified, SupportAttempt};
 pub use lifted::{flattened, lifted};
 pub(crate) use precise::{PreciseNull, precise_null};

@@ -156,9 +156,9 @@ fn hunt_around_values(hunt: &mut Hunt<'_>) -> Result<(), SolverError> {
 mod tests {
     use super::*;
     use crate::candidate::Candidate;
-    use crate::certify::{AttemptFailure, NotCertified, SupportAttempt, propose, sift};
-    use mceip_check::Reason;
+    use crate::certify::{AttemptFailure, NotCertified, SupportAttempt, propose};
     use mceip_check::certificate::Claim;
+    use mceip_check::{ClaimChecker, Reason};
     use mceip_exact::{Sparse, whole};
     use mceip_model::file::Number;
     use mceip_model::reduction::reduce;
@@ -206,13 +206,8 @@ mod tests {
 
     /// The claim, if the checker accepts it.
     fn checked(problem: &Problem, claim: Claim) -> Result<Claim, NotCertified> {
-        let mut sifted = sift(problem, vec![claim]);
-        if let Some(accepted) = sifted.accepted.pop() {
-            return Ok(accepted);
-        }
-
-        let (_, reason) = sifted.refused.remove(0);
-        Err(refusal(reason))
+        let verdict = ClaimChecker::new(problem).verdict(problem.window(), &claim);
+        verdict.map(|_| claim).map_err(refusal)
     }
 
     #[test]
