@@ -4,6 +4,7 @@
 //! An [`Element`] is built by its methods and written by its [`Display`]. Pictures and reports are
 //! made of nothing else.
 
+use mceip_exact::without_zeros;
 use std::fmt::{self, Display, Formatter};
 
 /// An element with attributes and children, in the order given.
@@ -93,16 +94,9 @@ pub(super) fn short(value: f64) -> String {
 /// A number with at most this many decimals.
 pub(super) fn short_to(value: f64, decimals: usize) -> String {
     let rounded = format!("{value:.decimals$}");
-    let without_zeros = if rounded.contains('.') {
-        rounded.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &rounded
-    };
-
-    if without_zeros == "-0" {
-        "0".into()
-    } else {
-        without_zeros.into()
+    match without_zeros(&rounded) {
+        "-0" => "0".into(),
+        number => number.into(),
     }
 }
 

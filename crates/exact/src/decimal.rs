@@ -155,6 +155,21 @@ fn decimal_exponent(value: &Rational) -> i64 {
     if *value < power { guess - 1 } else { guess }
 }
 
+/// A number in decimals without the zeros at their end; as it is where it has no decimal point, or
+/// has an exponent.
+///
+/// ```
+/// use mceip_exact::without_zeros;
+/// let written = ["1.50", "2.000", "100", "1.5e-10"];
+/// assert_eq!(written.map(without_zeros), ["1.5", "2", "100", "1.5e-10"]);
+/// ```
+pub fn without_zeros(number: &str) -> &str {
+    if !number.contains('.') || number.contains('e') {
+        return number;
+    }
+    number.trim_end_matches('0').trim_end_matches('.')
+}
+
 /// value * 10^k.
 fn times_power_of_ten(value: &Rational, k: i64) -> Rational {
     let power = Integer::from(10).pow(k.unsigned_abs());

@@ -38,7 +38,7 @@ pub use algebraic::{Algebraic, Sign, simplest_between};
 pub use cofactor::first_row_cofactors;
 pub use cone::{Generators, cone_generators, dot};
 pub use decimal::{
-    enclosing_decimals, nearest_decimal, ratio_to_decimal, to_decimal, upper_decimal,
+    enclosing_decimals, nearest_decimal, ratio_to_decimal, to_decimal, upper_decimal, without_zeros,
 };
 pub use definite::{
     DefiniteError, Minor, NotDefinite, first_minor_not_positive, positive_definite,

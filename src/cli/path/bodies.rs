@@ -11,7 +11,7 @@ use crate::picture::{BodyDrawing, BodyUnderLoad};
 use crate::say::number_text;
 use crate::say::path::amount_text;
 use crate::{Bracket, Loads, OwnCritical};
-use mceip_exact::to_f64;
+use mceip_exact::{to_f64, without_zeros};
 use mceip_model::{ContactState, Coordinates, Particle};
 use mceip_path::{Equilibrium, LoadingPath, Stretch};
 
@@ -37,7 +37,8 @@ pub(super) fn of_path(loads: &Loads, path: &LoadingPath) -> Vec<Named> {
     for stretches in path.stretches.chunk_by(|a, b| a.step == b.step) {
         if let Some(last) = stretches.last() {
             let number = last.step + 1;
-            let amount = short_amount(last.last());
+            let amount = amount_text(last.last());
+            let amount = without_zeros(&amount);
             let step = names[last.step];
             places.push(DrawnEquilibrium {
                 name: format!("step-{number:02}"),
@@ -68,7 +69,8 @@ pub(super) fn of_deciding(own: &OwnCritical) -> Vec<Named> {
     let stretch = examined.place.stretch(&point.path);
     let step = own.loads().step_names()[stretch.step];
     let mu = number_text(point.friction());
-    let amount = short_amount(&examined.equilibrium);
+    let amount = amount_text(&examined.equilibrium);
+    let amount = without_zeros(&amount);
     let place = DrawnEquilibrium {
         name: "own-critical-body".into(),
         title: format!(
@@ -79,12 +81,6 @@ pub(super) fn of_deciding(own: &OwnCritical) -> Vec<Named> {
         at: &examined.equilibrium,
     };
     under_load(own.loads(), &point.path, coordinates, &[place])
-}
-
-/// The amount of an equilibrium without zeros at its end.
-fn short_amount(equilibrium: &Equilibrium) -> String {
-    let digits = amount_text(equilibrium);
-    digits.trim_end_matches('0').trim_end_matches('.').into()
 }
 
 /// What to read off the body at rest.

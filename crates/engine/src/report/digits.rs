@@ -1,7 +1,7 @@
 //! Measured numbers for people: six decimals, or six digits where these have too few.
 
 use crate::tolerance::WITH_SIX_DECIMALS;
-use mceip_exact::{Rational, from_f64, nearest_decimal, to_f64};
+use mceip_exact::{Rational, from_f64, nearest_decimal, to_f64, without_zeros};
 use num_traits::Zero;
 
 /// Six decimals without trailing zeros; beyond [`WITH_SIX_DECIMALS`] six digits and an exponent.
@@ -11,8 +11,7 @@ pub(crate) fn short(v: &Rational) -> String {
         return nearest_decimal(v, 6);
     }
 
-    let text = format!("{value:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_string()
+    without_zeros(&format!("{value:.6}")).to_owned()
 }
 
 /// Is a number of this size printed with six decimals?
