@@ -5,7 +5,7 @@ use super::{number_text, warnings_text};
 use crate::front::{
     Bracket, ExaminedEquilibrium, FrictionAnswer, FrictionPoint, OwnCritical, PathPlace,
 };
-use mceip_engine::analysis::{Analysis, Verdict};
+use mceip_engine::analysis::{Analysis, Mode, Verdict};
 use mceip_engine::report::{Table, six_digits};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
 use mceip_model::Particle;
@@ -140,7 +140,7 @@ fn critical_text(point: &FrictionPoint, names: &[&str]) -> String {
         Some(examined) if point.deciding_diverges() => format!(
             "the equilibrium {} can diverge, proved{}",
             where_text(examined.place, &point.path, names),
-            rate_of(examined)
+            rate_of(examined.modes())
                 .map(|rate| format!(" (a growth rate of {rate} 1/s)"))
                 .unwrap_or_default()
         ),
@@ -170,12 +170,6 @@ fn place_text(place: PathPlace) -> String {
         PathPlace::Inside(stretch) => format!("stretch {stretch}"),
         PathPlace::End => "end".into(),
     }
-}
-
-/// The largest growth rate that is proved.
-fn rate_of(examined: &ExaminedEquilibrium) -> Option<String> {
-    let last = examined.modes().last();
-    last.map(|mode| six_digits(mode.growth_rate))
 }
 
 /// How much of which load is applied at the end of a path.
@@ -245,8 +239,20 @@ pub(super) fn bracket_text(held: &Analysis) -> String {
     }
 }
 
+/// The largest growth rate that is proved.
+pub(super) fn rate_of(modes: &[Mode]) -> Option<String> {
+    modes.last().map(|mode| six_digits(mode.growth_rate))
+}
+
+/// lambda^2 of each mode, between two decimals.
+pub(super) fn lambda2_json(modes: &[Mode]) -> Value {
+    let values = modes.iter();
+    let values = values.map(|mode| enclosing_decimals(&mode.lambda2, 2 * DIGITS));
+    json!(values.collect::<Vec<_>>())
+}
+
 /// Digits of printed values.
-const DIGITS: usize = 6;
+pub(super) const DIGITS: usize = 6;
 
 /// A lower bound in decimals.
 fn rounded_down(mu: &Rational) -> String {
@@ -286,7 +292,7 @@ fn cells(point: &FrictionPoint, names: &[&str]) -> Vec<String> {
         examined.equilibrium.picture(),
         states.into(),
         verdict.into(),
-        rate_of(examined).unwrap_or_else(none),
+        rate_of(examined.modes()).unwrap_or_else(none),
     ]
 }
 
@@ -356,11 +362,6 @@ fn point_json(point: &FrictionPoint, names: &[&str], candidates: &[Particle]) ->
 
 /// The equilibrium that decides, with what is known of the whole path.
 fn examined_json(examined: &ExaminedEquilibrium, verdict: Verdict, point: &FrictionPoint) -> Value {
-    let modes = examined.modes().iter();
-    let lambda2 = modes.map(|mode| {
-        let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
-        [lo, hi]
-    });
     let stretch = match examined.place {
         PathPlace::Inside(stretch) => Some(stretch),
         PathPlace::End => None,
@@ -373,6 +374,6 @@ fn examined_json(examined: &ExaminedEquilibrium, verdict: Verdict, point: &Frict
         "divergence": verdict.word(),
         "families": examined.divergence.as_ref().map_or(0, |divergence| divergence.families),
         "refused": examined.divergence.as_ref().err().map(ToString::to_string),
-        "lambda2": lambda2.collect::<Vec<_>>(),
+        "lambda2": lambda2_json(examined.modes()),
     })
 }

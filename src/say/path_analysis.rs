@@ -1,11 +1,11 @@
 //! The analysis of the states on a loading path in words, as a table and as JSON.
 
 use super::number_text;
-use super::own_critical::{bracket_text, held_json};
+use super::own_critical::{DIGITS, bracket_text, held_json, lambda2_json, rate_of};
 use super::path::{amount_text, not_carried_text};
-use crate::front::{PathAnalysis, StateAnalysis};
+use crate::front::PathAnalysis;
 use mceip_engine::analysis::Verdict;
-use mceip_engine::report::{Table, counted, six_digits};
+use mceip_engine::report::{Table, counted};
 use mceip_exact::{Interval, Rational, enclosing_decimals};
 use serde_json::{Value, json};
 
@@ -67,18 +67,12 @@ pub(crate) fn rows_of(found: &PathAnalysis) -> Vec<Vec<String>> {
             state.stretch.to_string(),
             path.stretches[state.stretch].picture(),
             verdict,
-            rate_of(state).map_or_else(|| "-".into(), six_digits),
+            rate_of(state.modes()).unwrap_or_else(|| "-".into()),
             held,
         ]);
     }
 
     rows
-}
-
-/// The largest growth rate that is proved.
-fn rate_of(state: &StateAnalysis) -> Option<f64> {
-    let last = state.modes().last();
-    last.map(|mode| mode.growth_rate)
 }
 
 /// Does the path meet a state that can diverge at its friction?
@@ -97,7 +91,7 @@ pub(crate) fn verdict_text(found: &PathAnalysis) -> String {
     if let Some(first) = with(Verdict::Present).next() {
         let stretch = &path.stretches[first.stretch];
         let names = found.path().loads().step_names();
-        let rate = rate_of(first).map(six_digits);
+        let rate = rate_of(first.modes());
         let rate = rate.map_or_else(String::new, |rate| format!(", at up to about {rate} 1/s"));
         return format!(
             "At mu = {mu} the path MEETS AN EQUILIBRIUM THAT CAN DIVERGE: the first that is known \
@@ -143,18 +137,9 @@ fn above(mu: &Rational) -> String {
     enclosing_decimals(&Interval::point(mu.clone()), DIGITS).1
 }
 
-/// Digits of printed values.
-const DIGITS: usize = 6;
-
 /// For programs.
 pub(crate) fn json_of(found: &PathAnalysis) -> Value {
     let states = found.states.iter().map(|state| {
-        let modes = state.modes().iter();
-        let lambda2 = modes.map(|mode| {
-            let (lo, hi) = enclosing_decimals(&mode.lambda2, 2 * DIGITS);
-            [lo, hi]
-        });
-        let lambda2: Vec<_> = lambda2.collect();
         let mut out = match &state.analysis {
             Ok(analysis) => held_json(analysis),
             Err(why) => {
@@ -164,7 +149,7 @@ pub(crate) fn json_of(found: &PathAnalysis) -> Value {
         out["stretch"] = json!(state.stretch);
         out["same_as"] = json!(state.same_as);
         out["divergence"] = json!(state.verdict().word());
-        out["lambda2"] = json!(lambda2);
+        out["lambda2"] = lambda2_json(state.modes());
         out
     });
 
