@@ -171,19 +171,37 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The option or command that a misspelt one is nearest to, as a clause.
+/// How alike a misspelt word and the one that is meant are at least: one less the share of letters
+/// that differ.
+const ALIKE: f64 = 0.5;
+
+/// The option or command that a misspelt one is nearest to, as a clause; nothing where none is near.
 fn meant(e: &clap::Error) -> String {
-    let kinds = [
+    let texts = |kinds: [ContextKind; 3]| {
+        let found = kinds.into_iter().find_map(|kind| e.get(kind));
+        match found {
+            Some(ContextValue::String(one)) => std::slice::from_ref(one),
+            Some(ContextValue::Strings(several)) => several,
+            _ => &[],
+        }
+    };
+    let given = texts([
+        ContextKind::InvalidSubcommand,
+        ContextKind::InvalidArg,
+        ContextKind::InvalidValue,
+    ]);
+    let suggested = texts([
         ContextKind::SuggestedSubcommand,
         ContextKind::SuggestedArg,
         ContextKind::SuggestedValue,
-    ];
-    let suggested = kinds.into_iter().find_map(|kind| match e.get(kind)? {
-        ContextValue::String(one) => Some(one.clone()),
-        ContextValue::Strings(several) => several.first().cloned(),
-        _ => None,
-    });
-    match suggested {
+    ]);
+
+    let likeness = |word: &String| {
+        let given = given.first().map_or("", String::as_str);
+        strsim::normalized_damerau_levenshtein(given, word)
+    };
+    let near = suggested.iter().filter(|word| likeness(word) >= ALIKE);
+    match near.max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
         Some(word) => format!("; is {word} meant?"),
         None => String::new(),
     }
