@@ -152,7 +152,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         output.write(&page::page(&analysis, &drawn))
     });
     let pictures = if pictures.are_wanted() {
-        pictures.write_all(&drawn.pictures(&analysis))
+        pictures.write_bodies(&drawn.pictures(&analysis))
     } else {
         Ok(())
     };

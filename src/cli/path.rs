@@ -13,10 +13,11 @@ mod states;
 use super::common::{CliError, exit, friction_of, print_answer, text};
 use super::job::Job;
 use super::output::{Folder, Output};
-use super::pictures::{self, PictureArgs, PictureFolders};
+use super::pictures::{self, PictureArgs};
 use crate::front::require_mass;
 use crate::say::path::candidate_name;
 use crate::{FrictionGrid, LoadPath, Loads, OwnCritical, PathAnalysis};
+use mceip_check::with_short_numbers;
 use mceip_engine::equilibrium::StatesNotCertified;
 use mceip_engine::report::counted;
 use mceip_engine::run::{Progress, Watch};
@@ -27,6 +28,7 @@ use mceip_path::{LoadingPath, LoadingPathEnd};
 use pages::{CheckedOn, Shown};
 use serde_json::{Value, json};
 use states::{ExaminedStates, Wanted};
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -200,16 +202,27 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let path = followed.as_path();
     let names = loads.step_names();
-    // What shows the path alone is written before the answers that take long. What cannot be
-    // written takes nothing else along.
-    let told = |written: Result<(), CliError>| {
-        written.inspect_err(|e| job.note(&format!("mceip: {e}; the run goes on")))
+    // Each output is written as soon as its data are there. What cannot be written is told at once,
+    // and takes nothing else along.
+    let is_written = Cell::new(true);
+    let tell = |written: Result<(), CliError>| {
+        if let Err(e) = written {
+            let why = with_short_numbers(&e.to_string());
+            job.note(&format!("mceip: {why}; the run goes on"));
+            is_written.set(false);
+        }
     };
-    let states = folder.map_or(Ok(()), |folder| told(write_states(&followed, &folder)));
-    let reactions = reactions.map_or(Ok(()), |file| told(file.write(&followed.reactions_csv())));
-    let picture = picture.map_or(Ok(()), |picture| {
-        told(picture.write(&pages::path_chart(&followed, &names).to_svg()))
-    });
+    if let Some(folder) = folder {
+        tell(write_states(&followed, &folder));
+    }
+    if let Some(file) = reactions {
+        tell(file.write(&followed.reactions_csv()));
+    }
+    let chart = pages::path_chart(&followed, &names);
+    if let Some(file) = picture {
+        tell(file.write(&chart.to_svg()));
+    }
+    tell(pictures.write(&[chart]));
 
     let say = |progress: &Progress<'_>| job.say(progress);
     let watch = Watch::new(job.cancel(), &say);
@@ -218,6 +231,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let uncondensed = args.uncondensed || args.doubles;
     let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
     let own = own.transpose()?;
+    // An interrupted run leaves no pictures of what it was asked.
+    if pictures.are_wanted() && !job.is_cancelled() {
+        tell(pictures.write_bodies(&pages::bodies(&followed, own.as_ref())));
+    }
     let analysed = if args.analyze {
         let question = followed.analyze().cancel(job.cancel());
         Some(question.on_progress(|progress| job.say(progress)).run()?)
@@ -259,9 +276,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         None
     };
-    // An interrupted run leaves no pictures.
-    let shown = shown.filter(|_| !job.is_cancelled());
-    let pages = shown.map_or(Ok(()), |shown| write_pages(&shown, report, &pictures));
+    if let Some(shown) = shown.filter(|_| !job.is_cancelled()) {
+        if pictures.are_wanted() {
+            let drawn = shown.state_pictures().map_err(CliError::from);
+            tell(drawn.and_then(|drawn| pictures.write(&drawn)));
+        }
+        if let Some(file) = report {
+            let page = shown.report().map_err(CliError::from);
+            tell(page.and_then(|page| file.write(&page.to_html())));
+        }
+    }
     let certified = match (&proofs, &own) {
         (Some(folder), None) => Some(certify_stretches(&followed, folder, &job)?),
         _ => None,
@@ -279,7 +303,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     print_answer(args.json, || outcome.json(), || outcome.text())?;
     proofs.map_or(Ok(()), Folder::first_failure)?;
-    states.and(reactions).and(picture).and(pages)?;
+    if !is_written.get() {
+        return Ok(CliError::EXIT);
+    }
     let code = exit_code(path, outcome.examined.as_ref(), outcome.is_interrupted);
     let is_open = |analysed: &PathAnalysis| analysed.is_undecided();
     if code == exit::DONE && outcome.analysed.as_ref().is_some_and(is_open) {
@@ -340,23 +366,6 @@ fn choice_of(text: &str) -> Result<(usize, usize), CliError> {
     let both = both.and_then(|(stretch, k)| Some((stretch.parse().ok()?, k.parse().ok()?)));
     let expected = "STRETCH=K, two numbers from 0";
     both.ok_or_else(|| CliError::option("take", expected, text))
-}
-
-/// Writes the report and the pictures, each file whole.
-fn write_pages(
-    shown: &Shown<'_>,
-    report: Option<Output>,
-    pictures: &PictureFolders,
-) -> Result<(), CliError> {
-    if let Some(file) = report {
-        file.write(&shown.report()?.to_html())?;
-    }
-
-    if pictures.are_wanted() {
-        pictures.write_all(&shown.pictures()?)?;
-    }
-
-    Ok(())
 }
 
 /// Reads the text of a file of a body under loads; stdin has its matrices in this folder.

@@ -47,6 +47,10 @@ impl Named {
         }
     }
 
+    pub(super) fn to_svg(&self) -> String {
+        self.picture.to_svg()
+    }
+
     pub(super) fn into_figure(self) -> Content {
         Content::Figure {
             picture: self.picture,
@@ -105,16 +109,19 @@ impl PictureFolders {
         self.pictures.is_some() || self.vtk.is_some()
     }
 
-    /// Writes the pictures as SVG files, as PNG too in a build with the feature png; bodies as VTU.
-    pub(super) fn write_all(&self, all: &[Named]) -> Result<(), CliError> {
+    /// Writes pictures among which a body is expected.
+    pub(super) fn write_bodies(&self, all: &[Named]) -> Result<(), CliError> {
         if self.vtk.is_some() && all.iter().all(|named| named.vtu.is_none()) {
             aside("mceip: --vtk: no body and no mode is drawn here, so that nothing is written");
         }
+        self.write(all)
+    }
 
+    /// Writes the pictures as SVG files, as PNG too in a build with the feature png; bodies as VTU.
+    pub(super) fn write(&self, all: &[Named]) -> Result<(), CliError> {
         for named in all {
             if let Some(folder) = &self.pictures {
-                let svg = named.picture.to_svg();
-                folder.write(&format!("{}.svg", named.name), svg.as_bytes())?;
+                folder.write(&format!("{}.svg", named.name), named.to_svg().as_bytes())?;
                 #[cfg(feature = "png")]
                 folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
             }

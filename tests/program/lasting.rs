@@ -359,3 +359,13 @@ fn what_cannot_be_written_takes_nothing_else_along() {
     assert!(run.stdout.contains("certified"), "{run:?}");
     exits(0, &format!("check {problem} {certificate}"));
 }
+
+/// What `path` cannot write is told once, when it fails.
+#[test]
+fn an_output_of_path_that_cannot_be_written_is_told_once() {
+    let loads = example("own-critical");
+    let run = run(&format!("path {loads} --reactions /dev/full"));
+    assert_eq!(run.code, Some(2), "{run:?}");
+    assert!(!run.stdout.is_empty(), "{run:?}");
+    assert_eq!(run.stderr.matches("/dev/full").count(), 1, "{run:?}");
+}

@@ -14,8 +14,8 @@ use super::states::{
 use crate::cli::common::CliError;
 use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
 use crate::picture::{
-    BodyDrawing, BodyMode, Branches, ChartPoint, Content, PathDrawing, Picture, ReportPage,
-    Section, Threshold, ThresholdColumn, branch_picture, path_picture, threshold_picture,
+    BodyDrawing, BodyMode, Branches, ChartPoint, Content, PathDrawing, ReportPage, Section,
+    Threshold, ThresholdColumn, branch_picture, path_picture, threshold_picture,
 };
 use crate::say::path::{
     LETTERS, amount_text, causes_text, continuations_text, doubts_text, of_which_body,
@@ -108,7 +108,7 @@ pub(super) fn branches(
 }
 
 /// The picture of a path.
-pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Picture {
+pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Named {
     let drawing = PathDrawing {
         path: followed.as_path(),
         steps,
@@ -116,7 +116,16 @@ pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Picture {
         coordinates: followed.loads().as_file().coordinates.as_ref(),
     };
     let title = "Loading path: resultants, and the state of each contact candidate";
-    path_picture(title, &drawing)
+    Named::chart("path", path_picture(title, &drawing), PATH_CAPTION)
+}
+
+/// The pictures of the bodies: that which decides on the own critical friction, if that was asked
+/// for, else the body at rest and at the end of each step.
+pub(super) fn bodies(followed: &LoadPath, own: Option<&OwnCritical>) -> Vec<Named> {
+    match own {
+        Some(own) => own::pictures(own),
+        None => bodies::of_path(followed.loads(), followed.as_path()),
+    }
 }
 
 /// Whether the states on the path diverge.
@@ -143,15 +152,10 @@ impl Shown<'_> {
         self.followed.loads().body().system()
     }
 
-    /// Every picture: the path, the body at rest and at the end of each step, the thresholds,
-    /// lambda against mu, a mode for each certified solution; with the own critical friction the
-    /// body that decides.
-    pub(super) fn pictures(&self) -> Result<Vec<Named>, ModelError> {
-        let mut all = vec![self.path_chart()];
-        match self.own {
-            Some(own) => all.extend(own::pictures(own)),
-            None => all.extend(self.bodies()),
-        }
+    /// The pictures of the states: the thresholds, lambda against mu, a mode for each certified
+    /// solution.
+    pub(super) fn state_pictures(&self) -> Result<Vec<Named>, ModelError> {
+        let mut all = Vec::new();
         if let Some(ExaminedStates { proved: states, .. }) = self.examined {
             all.push(self.threshold_chart(states));
             all.extend(self.branch_chart());
@@ -161,15 +165,6 @@ impl Shown<'_> {
         }
 
         Ok(all)
-    }
-
-    fn path_chart(&self) -> Named {
-        let picture = path_chart(self.followed, self.names);
-        Named::chart("path", picture, PATH_CAPTION)
-    }
-
-    fn bodies(&self) -> Vec<Named> {
-        bodies::of_path(self.followed.loads(), self.path())
     }
 
     fn threshold_chart(&self, states: &[ProvedState]) -> Named {
@@ -230,14 +225,14 @@ impl Shown<'_> {
         let mut path = Section {
             title: "Loading path".into(),
             content: vec![
-                self.path_chart().into_figure(),
+                path_chart(self.followed, self.names).into_figure(),
                 self.path_table(),
                 Content::Paragraph(continuations_text(self.followed.continuations())),
                 Content::Paragraph(of_which_body(self.followed.is_in_doubles()).into()),
             ],
         };
         if self.own.is_none() {
-            let bodies = self.bodies().into_iter();
+            let bodies = bodies(self.followed, None).into_iter();
             path.content.extend(bodies.map(Named::into_figure));
         }
         let doubts = doubts_text(self.followed);
