@@ -4,7 +4,8 @@
 use super::common::{CliError, aside};
 use super::job::Job;
 use super::output::Folder;
-use crate::picture::{BodyDrawing, ChartPoint, Content, Picture, body_picture, body_vtu};
+use crate::picture::{BodyDrawing, ChartPoint, Content, Picture, Presence, body_picture, body_vtu};
+use mceip_engine::analysis::Verdict;
 use mceip_engine::reduction::SparseCondensation;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::{level_solutions, static_frequency2};
@@ -56,6 +57,15 @@ impl Named {
             picture: self.picture,
             caption: self.caption,
         }
+    }
+}
+
+/// What a verdict on divergence is in a chart along mu.
+pub(super) fn presence_of(verdict: Verdict) -> Presence {
+    match verdict {
+        Verdict::Absent => Presence::Absent,
+        Verdict::Present => Presence::Present,
+        Verdict::Undecided => Presence::Undecided,
     }
 }
 

@@ -13,7 +13,7 @@ use super::job::Job;
 use super::output::Output;
 use crate::{Solution, SolutionSet};
 use mceip_exact::to_f64;
-use mceip_model::{Body, ModelError, Particle, Problem, System, Unknown, Window};
+use mceip_model::{Body, ContactState, Problem, System, Unknown, Window};
 use mceip_motion::{
     AfterImpulse, Equations, GrowthAgreement, GrowthMode, MotionClass, Plan, StepSolutions,
     Stepper, along_mode,
@@ -123,15 +123,8 @@ fn system_of(args: &Args, problem: &Problem) -> Result<System, CliError> {
     };
 
     let friction = friction_of("friction", given)?;
-    let without_reaction = |particle: &Particle| Particle {
-        reaction: None,
-        ..particle.clone()
-    };
-    let particles = system.particles().iter().map(without_reaction).collect();
-    let stiffness = system.stiffness().clone();
-    let system: Result<System, ModelError> =
-        System::new(stiffness, system.mass().cloned(), Some(friction), particles);
-    Ok(system?)
+    let states: Vec<ContactState> = system.particles().iter().map(|p| p.state).collect();
+    Ok(system.as_given().with_states(&states, Some(friction))?)
 }
 
 fn require_counts(args: &Args) -> Result<(), CliError> {

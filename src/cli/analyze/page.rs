@@ -1,7 +1,9 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
 use crate::cli::common::CliError;
-use crate::cli::pictures::{LEVELS_CAPTION, Named, keep_below, levels_of, warnings_of};
+use crate::cli::pictures::{
+    LEVELS_CAPTION, Named, keep_below, levels_of, presence_of, warnings_of,
+};
 use crate::picture::{
     BodyDrawing, BodyMode, Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange,
     ReportPage, Section, branch_picture, presence_picture,
@@ -239,7 +241,7 @@ fn presence(analysis: &Analysis) -> PresenceChart {
     for range in &analysis.ranges {
         let from = to_f64(&range.from).max(stable.unwrap_or(0.0));
         ranges.push(PresenceRange {
-            presence: drawn_verdict(range.verdict),
+            presence: presence_of(range.verdict),
             from,
             is_from_included: from > 0.0 || analysis.is_from_included(range),
             to: range.to.as_ref().map(to_f64),
@@ -253,10 +255,10 @@ fn presence(analysis: &Analysis) -> PresenceChart {
     });
     let ranges = with_gaps(ranges);
 
-    let own = drawn_verdict(analysis.divergence.verdict);
+    let own = presence_of(analysis.divergence.verdict);
     let mut samples = vec![(to_f64(&analysis.friction), own)];
     for sample in &analysis.samples {
-        samples.push((to_f64(&sample.mu), drawn_verdict(sample.verdict)));
+        samples.push((to_f64(&sample.mu), presence_of(sample.verdict)));
     }
 
     let solution = analysis.critical.solution.as_ref();
@@ -302,14 +304,6 @@ fn critical_of_members(members: &Members) -> Option<[f64; 2]> {
     let (below, _) = members.absent_below.as_ref()?;
     let ([from, _], _) = members.present.as_ref()?;
     Some([to_f64(below), to_f64(from)])
-}
-
-fn drawn_verdict(verdict: Verdict) -> Presence {
-    match verdict {
-        Verdict::Absent => Presence::Absent,
-        Verdict::Present => Presence::Present,
-        Verdict::Undecided => Presence::Undecided,
-    }
 }
 
 /// The diverging modes: a table of all of them, then the components of each.

@@ -3,7 +3,7 @@
 use super::bodies;
 use crate::cli::common::{CliError, friction_of, positive};
 use crate::cli::output::Folder;
-use crate::cli::pictures::Named;
+use crate::cli::pictures::{Named, presence_of};
 use crate::picture::{
     Branches, ChartPoint, Content, Presence, PresenceChart, PresenceRange, Section, branch_picture,
     presence_picture,
@@ -15,7 +15,7 @@ use crate::{
     Bracket, Certificate, FrictionAnswer, FrictionGrid, FrictionGridError, FrictionPoint,
     OwnCritical, PathPlace,
 };
-use mceip_engine::analysis::{Proof, Verdict};
+use mceip_engine::analysis::Proof;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::file::read_text;
 
@@ -193,11 +193,9 @@ fn strip(own: &OwnCritical) -> Named {
 
 fn drawn(answer: FrictionAnswer) -> Presence {
     match answer {
-        FrictionAnswer::Equilibrium(Verdict::Absent) => Presence::Absent,
-        FrictionAnswer::Equilibrium(Verdict::Present) => Presence::Present,
+        FrictionAnswer::Equilibrium(verdict) => presence_of(verdict),
         FrictionAnswer::NoPath { is_certain: true } => Presence::NoPath,
-        FrictionAnswer::Equilibrium(Verdict::Undecided)
-        | FrictionAnswer::NoPath { is_certain: false } => Presence::Undecided,
+        FrictionAnswer::NoPath { is_certain: false } => Presence::Undecided,
     }
 }
 
