@@ -271,7 +271,7 @@ fn several_text(stretch: usize, continuations: &RateSolutions) -> String {
     let count = counted(states.len(), "way");
     let another = match states.len() {
         0 | 1 => String::new(),
-        _ => format!("; --take {stretch}=K takes another"),
+        _ => format!("; `mceip path --take {stretch}=K` takes another"),
     };
     let several =
         format!("{count} to go on at the beginning of stretch {stretch} ({ways}{another})");
