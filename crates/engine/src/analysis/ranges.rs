@@ -181,7 +181,7 @@ pub(super) fn ranges(
         critical.solution = Some(smaller);
     }
 
-    let mut others = joined(&proved, first, &samples);
+    let mut others = proved_and_sampled(&proved, first, &samples);
     absent_ranges::prove(model, known, &mut others, proofs);
     let mut ranges = Vec::from_iter(absent);
     ranges.extend(others);
@@ -517,7 +517,11 @@ fn holds(proved: &Proved<PresenceCertificate>, mu: &Rational) -> bool {
 
 /// The proved intervals, and runs of samples of one verdict outside them, by ascending mu. `first`
 /// is the index of the first interval's proof.
-fn joined(proved: &[Proved<PresenceCertificate>], first: usize, samples: &[Sample]) -> Vec<Range> {
+fn proved_and_sampled(
+    proved: &[Proved<PresenceCertificate>],
+    first: usize,
+    samples: &[Sample],
+) -> Vec<Range> {
     let mut ranges = Vec::new();
     let mut rest = samples;
     for (k, proved) in proved.iter().enumerate() {
