@@ -5,8 +5,9 @@ macro_rules! worded {
     ($(#[$doc:meta])* $name:ident: $($variant:ident $word:literal $note:literal,)+) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(serde::Serialize, serde::Deserialize)]
         #[allow(missing_docs, reason = "the note of each is its documentation")]
-        pub enum $name { $($variant,)+ }
+        pub enum $name { $(#[serde(rename = $word)] $variant,)+ }
 
         impl $name {
             /// All of them, in the order of tables.
@@ -25,12 +26,6 @@ macro_rules! worded {
             /// What it means, in a sentence for people.
             pub fn note(self) -> &'static str {
                 match self { $($name::$variant => $note,)+ }
-            }
-        }
-
-        impl serde::Serialize for $name {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serializer.serialize_str(self.word())
             }
         }
     };

@@ -11,7 +11,6 @@
 
 use super::case::Difficulty;
 use super::judge::Label;
-use super::pack::of_word;
 use super::summary::RUN_FORMAT;
 use crate::error::TestkitError;
 use mceip_engine::report::counted;
@@ -25,7 +24,7 @@ struct RawRun {
     version: String,
     settings: String,
     pack: RawPackName,
-    results: Vec<RawResult>,
+    results: Vec<CaseRecord>,
 }
 
 /// Tier and version of the pack.
@@ -35,21 +34,10 @@ struct RawPackName {
     version: String,
 }
 
-/// A case of a run.
-#[derive(Deserialize)]
-struct RawResult {
-    case: String,
-    problem_sha256: String,
-    label: String,
-    seconds: f64,
-    found: usize,
-    expected: usize,
-    difficulty: Option<String>,
-}
-
 /// What a program did with a case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 struct CaseRecord {
+    #[serde(rename = "case")]
     id: String,
     problem_sha256: String,
     label: Label,
@@ -74,18 +62,20 @@ impl ConformRun {
     /// Reads what `mceip conform --json` has printed; `name` is the program's in tables.
     ///
     /// # Errors
-    /// [`TestkitError::Problem`] for other JSON, [`TestkitError::Word`] for a label or difficulty
-    /// that there is not, [`TestkitError::OtherRun`] for counts or a time that cannot be.
+    /// [`TestkitError::Problem`] for other JSON, [`TestkitError::OtherRun`] for counts or a time
+    /// that cannot be.
     pub fn read(name: &str, text: &str) -> Result<ConformRun, TestkitError> {
         let raw = from_json_of(RUN_FORMAT, text);
         let raw: RawRun = raw.map_err(|e| TestkitError::problem(name, e))?;
-        let records = raw.results.into_iter().map(|raw| record(name, raw));
+        for record in &raw.results {
+            record.require_possible(name)?;
+        }
         Ok(ConformRun {
             name: name.to_owned(),
             version: raw.version,
             options: options_of(&raw.settings),
             pack: format!("{} of tier {}", raw.pack.version, raw.pack.tier),
-            records: records.collect::<Result<_, _>>()?,
+            records: raw.results,
         })
     }
 
@@ -108,30 +98,19 @@ impl ConformRun {
     }
 }
 
-/// A case of a run, with what it says in words understood.
-fn record(run: &str, raw: RawResult) -> Result<CaseRecord, TestkitError> {
-    let is_possible = raw.found <= raw.expected && raw.seconds.is_finite() && raw.seconds >= 0.0;
-    if !is_possible {
-        return Err(TestkitError::OtherRun {
-            run: run.to_owned(),
-            expected: format!("{}: found <= expected and seconds >= 0", raw.case),
-            got: format!("{} of {} in {} s", raw.found, raw.expected, raw.seconds),
-        });
-    }
+impl CaseRecord {
+    fn require_possible(&self, run: &str) -> Result<(), TestkitError> {
+        let is_time = self.seconds.is_finite() && self.seconds >= 0.0;
+        if self.found <= self.expected && is_time {
+            return Ok(());
+        }
 
-    let difficulty = raw.difficulty.as_deref().map(|word| {
-        let what = "easy, medium or hard for difficulty";
-        of_word(&raw.case, what, word, Difficulty::of_word)
-    });
-    Ok(CaseRecord {
-        label: of_word(&raw.case, "a label", &raw.label, Label::of_word)?,
-        difficulty: difficulty.transpose()?,
-        id: raw.case,
-        problem_sha256: raw.problem_sha256,
-        seconds: raw.seconds,
-        found: raw.found,
-        expected: raw.expected,
-    })
+        Err(TestkitError::OtherRun {
+            run: run.to_owned(),
+            expected: format!("{}: found <= expected and seconds >= 0", self.id),
+            got: format!("{} of {} in {} s", self.found, self.expected, self.seconds),
+        })
+    }
 }
 
 /// Runs over the same cases.

@@ -245,13 +245,13 @@ struct RawGroup {
 struct RawCase {
     id: String,
     comment: String,
-    flags: Vec<String>,
+    flags: Vec<Flag>,
     problem: Value,
     answer: Value,
     #[serde(rename = "wrong")]
     _wrong: Value,
-    completeness: Option<String>,
-    difficulty: Option<String>,
+    completeness: Option<Completeness>,
+    difficulty: Option<Difficulty>,
     /// Of the certificate that was checked when the case was written; another search may make
     /// another one, so it is not compared.
     #[serde(rename = "certificate_sha256")]
@@ -329,57 +329,27 @@ fn read_group_text(folder: &Path, file: &str) -> Result<String, ModelError> {
     read_text("a group", &folder.join(file))
 }
 
-/// The variant with this word.
-///
-/// # Errors
-/// [`TestkitError::Word`]; `what` says what was expected.
-pub(super) fn of_word<T>(
-    case: &str,
-    what: &'static str,
-    word: &str,
-    find: impl Fn(&str) -> Option<T>,
-) -> Result<T, TestkitError> {
-    find(word).ok_or_else(|| TestkitError::Word {
-        case: case.to_owned(),
-        what,
-        got: word.chars().take(60).collect(),
-    })
-}
-
 /// Reads a case and compares its answer with that of the plain oracle.
 fn read_case(raw: &RawCase) -> Result<Draft, TestkitError> {
-    let mut flags = Vec::new();
-    for word in &raw.flags {
-        let flag = of_word(&raw.id, "a flag of spec/conform.md", word, Flag::of_word)?;
-        if flag.is_given() {
-            flags.push(flag);
-        }
-    }
-
     // Files beside the pack are not read: its problems are inlined.
     let problem = read_problem(&raw.problem.to_string(), Path::new("/nonexistent"));
     let problem = problem.map_err(|e| TestkitError::problem(&raw.id, e))?;
 
-    let completeness = raw.completeness.as_deref().map(|word| {
-        let what = "proved or best_known for completeness";
-        of_word(&raw.id, what, word, Completeness::of_word)
-    });
-    let completeness = completeness.transpose()?;
-    let difficulty = raw.difficulty.as_deref().map(|word| {
-        let what = "easy, medium or hard for difficulty";
-        of_word(&raw.id, what, word, Difficulty::of_word)
-    });
-
     let draft = Draft {
         id: raw.id.clone(),
         comment: raw.comment.clone(),
-        flags,
+        flags: raw
+            .flags
+            .iter()
+            .copied()
+            .filter(|flag| flag.is_given())
+            .collect(),
         problem,
-        completeness,
-        listed: completeness.map(|_| raw.answer.clone()),
-        difficulty: difficulty.transpose()?,
+        completeness: raw.completeness,
+        listed: raw.completeness.map(|_| raw.answer.clone()),
+        difficulty: raw.difficulty,
     };
-    if completeness.is_some() {
+    if draft.completeness.is_some() {
         return Ok(draft);
     }
 
