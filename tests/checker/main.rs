@@ -11,6 +11,9 @@ mod corpus_reader;
 #[cfg(feature = "testkit")]
 #[path = "../support/cover.rs"]
 mod cover;
+#[cfg(feature = "testkit")]
+#[path = "../support/json_places.rs"]
+mod json_places;
 #[path = "../support/program.rs"]
 mod program;
 #[cfg(feature = "testkit")]

@@ -3,6 +3,7 @@
 //! author, so that a mistake of one is a difference. Without python3 the tests are ignored.
 #![cfg(feature = "cli")]
 
+use crate::json_places::places;
 use crate::python_checker::codes;
 use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Interval, whole};
@@ -40,22 +41,8 @@ fn written(command: &str, problem: &Path, folder: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap()
 }
 
-/// Pointers to every number, name and list of a certificate, in the file's order.
-fn places(value: &Value, at: &str, out: &mut Vec<String>) {
-    match value {
-        Value::Object(fields) => {
-            for (key, field) in fields {
-                places(field, &format!("{at}/{key}"), out);
-            }
-        }
-        Value::Array(items) => {
-            out.push(at.to_string());
-            for (index, item) in items.iter().enumerate() {
-                places(item, &format!("{at}/{index}"), out);
-            }
-        }
-        _ => out.push(at.to_string()),
-    }
+fn is_no_object(value: &Value) -> bool {
+    !value.is_object()
 }
 
 /// Words that stand for a leaf or an outcome.
@@ -174,9 +161,7 @@ fn both_checkers_give_the_same_verdicts() {
         let problem = example(name);
         for command in ["complete", "solve"] {
             let certificate = written(command, &problem, folder.path());
-            let mut everywhere = Vec::new();
-            places(&certificate, "", &mut everywhere);
-
+            let everywhere = places(&certificate, &is_no_object);
             comparison.add(&problem, &certificate, &everywhere, 8);
         }
     }
@@ -227,8 +212,7 @@ fn both_checkers_agree_on_support_leaves() {
         std::fs::write(&problem, text).unwrap();
         let certificate = written("complete", &problem, folder.path());
 
-        let mut in_support_leaves = Vec::new();
-        places(&certificate, "", &mut in_support_leaves);
+        let mut in_support_leaves = places(&certificate, &is_no_object);
         in_support_leaves.retain(|place| place.contains("/support/"));
         assert!(in_support_leaves.len() > 8, "{a} {b}");
 

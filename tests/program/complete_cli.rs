@@ -11,60 +11,35 @@ use crate::common::{
 #[cfg(unix)]
 use crate::interrupt::interrupt;
 use crate::program::Folder;
-use mceip_model::{Problem, Unknown};
+use mceip_model::Unknown;
 use mceip_testkit::{known, mechanical_pencil};
 use serde_json::Value;
 use std::time::Duration;
 
-/// A folder with the problems of these tests.
-struct Bench(Folder);
+fn random(folder: &Folder, n: usize) -> String {
+    let problem = mechanical_pencil(n, Unknown::Mu, 3).unwrap();
+    folder.write("random.json", &problem_text(&problem))
+}
 
-impl Bench {
-    fn new() -> Bench {
-        Bench(Folder::new())
-    }
+/// The complete graph: each nonempty set of vertices is the support of a solution.
+fn graph(folder: &Folder, vertices: usize) -> String {
+    let problem = known::complete_graph(vertices).unwrap().problem;
+    folder.write("graph.json", &problem_text(&problem))
+}
 
-    fn path(&self, name: &str) -> String {
-        self.0.path(name)
-    }
+/// Runs `complete --shard i/n` into a file and gives its path.
+fn shard(folder: &Folder, problem: &str, shard: &str) -> String {
+    let out = folder.path(&format!("shard-{}.json", shard.replace('/', "-")));
+    let ended = run(&format!(
+        "complete {problem} --shard {shard} --certificate {out}"
+    ));
+    assert_eq!(
+        ended.code,
+        Some(3),
+        "the pieces of other shards stay open: {ended:?}"
+    );
 
-    fn write(&self, name: &str, text: &str) -> String {
-        self.0.write(name, text)
-    }
-
-    fn problem(&self, name: &str, problem: &Problem) -> String {
-        self.write(name, &problem_text(problem))
-    }
-
-    fn random(&self, n: usize) -> String {
-        let problem = mechanical_pencil(n, Unknown::Mu, 3).unwrap();
-        self.problem(&format!("random-{n}.json"), &problem)
-    }
-
-    /// The complete graph: each nonempty set of vertices is the support of a solution.
-    fn graph(&self, vertices: usize) -> String {
-        let problem = known::complete_graph(vertices).unwrap().problem;
-        self.problem("graph.json", &problem)
-    }
-
-    /// Runs `complete --shard i/n` into a file and gives its path.
-    fn shard(&self, problem: &str, shard: &str) -> String {
-        let out = self.path(&format!("shard-{}.json", shard.replace('/', "-")));
-        let ended = run(&format!(
-            "complete {problem} --shard {shard} --certificate {out}"
-        ));
-        assert_eq!(
-            ended.code,
-            Some(3),
-            "the pieces of other shards stay open: {ended:?}"
-        );
-
-        out
-    }
-
-    fn three_shards(&self, problem: &str) -> [String; 3] {
-        ["1/3", "2/3", "3/3"].map(|shard| self.shard(problem, shard))
-    }
+    out
 }
 
 /// A solution of a `--json` report, to 14 digits.
@@ -116,12 +91,12 @@ fn complete_and_enumerate_write_the_same_solutions() {
 
 #[test]
 fn one_certificate_for_any_number_of_threads() {
-    let bench = Bench::new();
+    let folder = Folder::new();
     let with_free_variables = example("two-particles-mu");
 
-    for problem in [bench.random(10), bench.graph(6), with_free_variables] {
+    for problem in [random(&folder, 10), graph(&folder, 6), with_free_variables] {
         let certificates = ["1", "2", "4"].map(|threads| {
-            let out = bench.path(&format!("threads-{threads}.json"));
+            let out = folder.path(&format!("threads-{threads}.json"));
             exits(
                 0,
                 &format!("complete {problem} --threads {threads} --certificate {out}"),
@@ -135,7 +110,7 @@ fn one_certificate_for_any_number_of_threads() {
 
         let checked = exits(
             0,
-            &format!("check {problem} {}", bench.path("threads-1.json")),
+            &format!("check {problem} {}", folder.path("threads-1.json")),
         );
         assert!(checked.contains("ACCEPTED"), "{checked}");
     }
@@ -143,16 +118,17 @@ fn one_certificate_for_any_number_of_threads() {
 
 #[test]
 fn shards_merged_are_the_single_run() {
-    let bench = Bench::new();
+    let folder = Folder::new();
 
-    for problem in [bench.random(10), bench.graph(5)] {
-        let single = bench.path("single.json");
+    for problem in [random(&folder, 10), graph(&folder, 5)] {
+        let single = folder.path("single.json");
         let whole = exits_with_json(
             0,
             &format!("complete {problem} --json --certificate {single}"),
         );
-        let [first, second, third] = bench.three_shards(&problem);
-        let merged = bench.path("merged.json");
+        let [first, second, third] =
+            ["1/3", "2/3", "3/3"].map(|part| shard(&folder, &problem, part));
+        let merged = folder.path("merged.json");
 
         // In any order.
         let parts = format!("{third} {first} {second}");
@@ -180,9 +156,9 @@ fn shards_merged_are_the_single_run() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_a_certificate_to_go_on_with() {
-    let bench = Bench::new();
-    let problem = bench.graph(9);
-    let part = bench.path("part.json");
+    let folder = Folder::new();
+    let problem = graph(&folder, 9);
+    let part = folder.path("part.json");
 
     let search = started(&format!(
         "complete {problem} --threads 1 --certificate {part}"
@@ -209,11 +185,11 @@ fn an_interrupt_leaves_a_certificate_to_go_on_with() {
 /// A shard is the checkpoint of the others: what it left open is searched, what it closed stays.
 #[test]
 fn a_shard_is_resumed_to_the_whole() {
-    let bench = Bench::new();
-    let problem = bench.random(9);
-    let part = bench.shard(&problem, "2/3");
-    let whole = bench.path("whole.json");
-    let single = bench.path("single.json");
+    let folder = Folder::new();
+    let problem = random(&folder, 9);
+    let part = shard(&folder, &problem, "2/3");
+    let whole = folder.path("whole.json");
+    let single = folder.path("single.json");
 
     exits(
         0,

@@ -71,39 +71,31 @@ const CSV: &str = concat!(
 const JSON: &str = r#"[{"tangential":2,"normal":3,"state":"slip","sign":1,"normal_direction":-1}]"#;
 
 /// A folder with the inputs of these tests.
-struct Bench(Folder);
-
-impl Bench {
-    fn new() -> Bench {
-        let bench = Bench(Folder::new());
-        for (name, text) in [
-            ("k.sti", STI),
-            ("m.mas", MAS),
-            ("k.dof", DOF),
-            ("K.mtx", K),
-            ("G.mtx", GENERAL),
-            ("M.mtx", M),
-            ("c.csv", CSV),
-            ("c.json", JSON),
-        ] {
-            bench.0.write(name, text);
-        }
-
-        bench.changed("c.csv", "named.csv", "2,3,", "9.1,9.2,");
-        bench
+fn inputs() -> Folder {
+    let folder = Folder::new();
+    for (name, text) in [
+        ("k.sti", STI),
+        ("m.mas", MAS),
+        ("k.dof", DOF),
+        ("K.mtx", K),
+        ("G.mtx", GENERAL),
+        ("M.mtx", M),
+        ("c.csv", CSV),
+        ("c.json", JSON),
+    ] {
+        folder.write(name, text);
     }
 
-    fn path(&self, name: &str) -> String {
-        self.0.path(name)
-    }
+    write_changed(&folder, "c.csv", "named.csv", "2,3,", "9.1,9.2,");
+    folder
+}
 
-    /// Writes a copy of a file with every `from` replaced.
-    #[track_caller]
-    fn changed(&self, file: &str, copy: &str, from: &str, to: &str) {
-        let text = read(&self.path(file));
-        assert!(text.contains(from), "{from}");
-        self.0.write(copy, &text.replace(from, to));
-    }
+/// Writes a copy of a file with every `from` replaced.
+#[track_caller]
+fn write_changed(folder: &Folder, file: &str, copy: &str, from: &str, to: &str) {
+    let text = read(&folder.path(file));
+    assert!(text.contains(from), "{from}");
+    folder.write(copy, &text.replace(from, to));
 }
 
 /// The files of a conversion.
@@ -136,10 +128,10 @@ fn calculix<'a>(stiffness: &'a str, contacts: &'a str) -> Conversion<'a> {
 }
 
 impl Conversion<'_> {
-    fn command(&self, bench: &Bench, out: &str) -> String {
+    fn command(&self, folder: &Folder, out: &str) -> String {
         let files = [self.stiffness, self.mass, self.contacts, out];
-        let [stiffness, mass, contacts, out] = files.map(|file| bench.path(file));
-        let dof = self.dof.map(|dof| format!(" --dof {}", bench.path(dof)));
+        let [stiffness, mass, contacts, out] = files.map(|file| folder.path(file));
+        let dof = self.dof.map(|dof| format!(" --dof {}", folder.path(dof)));
         let matrices = format!(
             "--stiffness {stiffness} --mass {mass}{}",
             dof.unwrap_or_default()
@@ -149,35 +141,35 @@ impl Conversion<'_> {
 
     /// The digest of the problem that is written.
     #[track_caller]
-    fn digest(&self, bench: &Bench) -> String {
-        exits(0, &self.command(bench, "out.json"));
+    fn digest(&self, folder: &Folder) -> String {
+        exits(0, &self.command(folder, "out.json"));
 
-        let problem = read_problem_file(Path::new(&bench.path("out.json")));
+        let problem = read_problem_file(Path::new(&folder.path("out.json")));
         problem.unwrap().sha256()
     }
 
     #[track_caller]
-    fn is_refused(&self, bench: &Bench, words: &[&str]) {
-        refused(&self.command(bench, "never.json"), words);
+    fn is_refused(&self, folder: &Folder, words: &[&str]) {
+        refused(&self.command(folder, "never.json"), words);
 
-        let is_written = Path::new(&bench.path("never.json")).exists();
+        let is_written = Path::new(&folder.path("never.json")).exists();
         assert!(!is_written, "a half-written problem");
     }
 }
 
 #[test]
 fn every_route_makes_the_same_problem() {
-    let bench = Bench::new();
+    let folder = inputs();
 
-    let symmetric = matrix_market("K.mtx", "M.mtx", "c.csv").digest(&bench);
-    let general = matrix_market("G.mtx", "M.mtx", "c.json").digest(&bench);
-    let from_calculix = calculix("k.sti", "named.csv").digest(&bench);
+    let symmetric = matrix_market("K.mtx", "M.mtx", "c.csv").digest(&folder);
+    let general = matrix_market("G.mtx", "M.mtx", "c.json").digest(&folder);
+    let from_calculix = calculix("k.sti", "named.csv").digest(&folder);
 
     assert_eq!(general, symmetric);
     assert_eq!(from_calculix, symmetric);
     exits(
         0,
-        &format!("analyze {} --samples 0", bench.path("out.json")),
+        &format!("analyze {} --samples 0", folder.path("out.json")),
     );
 }
 
@@ -185,18 +177,18 @@ fn every_route_makes_the_same_problem() {
 /// do not fit are refused.
 #[test]
 fn coordinates_are_kept() {
-    let bench = Bench::new();
+    let folder = inputs();
     let conversion = matrix_market("K.mtx", "M.mtx", "c.csv");
-    let digest = conversion.digest(&bench);
-    let nodes = bench.path("nodes.csv");
-    let command = conversion.command(&bench, "drawn.json");
+    let digest = conversion.digest(&folder);
+    let nodes = folder.path("nodes.csv");
+    let command = conversion.command(&folder, "drawn.json");
     let command = format!("{command} --coordinates {nodes}");
 
     let table = "node,x,y,dof_x,dof_y,edges_to\na,0,0.5,2,3,b\nb,1,0.5,0,1,\nglued,0,1,,,a b\n";
-    bench.0.write("nodes.csv", table);
+    folder.write("nodes.csv", table);
     exits(0, &command);
 
-    let path = bench.path("drawn.json");
+    let path = folder.path("drawn.json");
     let problem = read_problem_file(Path::new(&path)).unwrap();
     let coordinates = problem.coordinates.as_ref().unwrap();
     assert_eq!(problem.sha256(), digest);
@@ -206,7 +198,7 @@ fn coordinates_are_kept() {
         panic!("a system was converted")
     };
     assert_eq!(system.particles()[0].name.as_deref(), Some("left"));
-    let plain = read(&bench.path("out.json"));
+    let plain = read(&folder.path("out.json"));
     assert!(!plain.contains("coordinates") && plain.contains(r#""name":"left""#));
 
     std::fs::remove_file(&path).unwrap();
@@ -224,7 +216,7 @@ fn coordinates_are_kept() {
         ),
         ("dof_x", "dof", &["expected the columns", "dof_x"]),
     ] {
-        bench.0.write("nodes.csv", &table.replace(from, to));
+        folder.write("nodes.csv", &table.replace(from, to));
         refused(&command, words);
     }
     assert!(!Path::new(&path).exists());
@@ -234,7 +226,7 @@ fn coordinates_are_kept() {
 /// and the comment in the file say what the rotation is.
 #[test]
 fn oblique_obstacles_become_rational_rotations() {
-    let bench = Bench::new();
+    let folder = inputs();
     let header = "tangential,normal,state";
     let by_angle = format!("{header},angle\n2,3,slip-,36.86989764584402\n");
     let by_normal = format!("{header},normal_x,normal_y\n2,3,slip-,-0.6,0.8\n");
@@ -242,35 +234,41 @@ fn oblique_obstacles_become_rational_rotations() {
     let frame = format!(
         r#"[{{"tangential":2,"normal":3,"state":"slip","sign":1,"frame":[[{c},{s}],[-{s},{c}]]}}]"#
     );
-    bench.0.write("angle.csv", &by_angle);
-    bench.0.write("normal.csv", &by_normal);
-    bench.0.write("frame.json", &frame);
+    folder.write("angle.csv", &by_angle);
+    folder.write("normal.csv", &by_normal);
+    folder.write("frame.json", &frame);
 
     let digests = ["angle.csv", "normal.csv", "frame.json"]
-        .map(|contacts| matrix_market("K.mtx", "M.mtx", contacts).digest(&bench));
+        .map(|contacts| matrix_market("K.mtx", "M.mtx", contacts).digest(&folder));
     assert_eq!(digests[0], digests[1]);
     assert_eq!(digests[0], digests[2]);
 
-    let file = read(&bench.path("out.json"));
+    let file = read(&folder.path("out.json"));
     let sentence = "Tangent of particles 0: turned by 36.8698976458 degrees, (4/5, 3/5).";
     assert!(file.contains(sentence), "{file}");
     exits(
         0,
-        &format!("analyze {} --samples 0", bench.path("out.json")),
+        &format!("analyze {} --samples 0", folder.path("out.json")),
     );
 }
 
 #[test]
 fn rounded_matrices_are_made_symmetric_on_request_only() {
-    let bench = Bench::new();
-    bench.changed("G.mtx", "rounded.mtx", "1 2 -1", "1 2 -1.000000000001");
+    let folder = inputs();
+    write_changed(
+        &folder,
+        "G.mtx",
+        "rounded.mtx",
+        "1 2 -1",
+        "1 2 -1.000000000001",
+    );
     let rounded = matrix_market("rounded.mtx", "M.mtx", "c.csv");
 
-    rounded.is_refused(&bench, &["E3", "K symmetric", "--symmetrize"]);
+    rounded.is_refused(&folder, &["E3", "K symmetric", "--symmetrize"]);
 
-    let command = rounded.command(&bench, "out.json");
+    let command = rounded.command(&folder, "out.json");
     exits(0, &format!("{command} --symmetrize"));
-    let file = read(&bench.path("out.json"));
+    let file = read(&folder.path("out.json"));
     assert!(file.contains("K is the mean of the given matrix and its transpose."));
     assert!(file.contains("-2000000000001/2000000000000"), "{file}");
 }
@@ -278,13 +276,13 @@ fn rounded_matrices_are_made_symmetric_on_request_only() {
 /// States that not every command treats are written all the same, as are friction factors.
 #[test]
 fn zero_reaction_and_friction_factors_are_written() {
-    let bench = Bench::new();
+    let folder = inputs();
     let table = "tangential,normal,state,friction_factor\n2,3,slip-,3/2\n0,1,zero,\n";
-    bench.0.write("zero.csv", table);
+    folder.write("zero.csv", table);
 
-    matrix_market("K.mtx", "M.mtx", "zero.csv").digest(&bench);
+    matrix_market("K.mtx", "M.mtx", "zero.csv").digest(&folder);
 
-    let problem = read_problem_file(Path::new(&bench.path("out.json"))).unwrap();
+    let problem = read_problem_file(Path::new(&folder.path("out.json"))).unwrap();
     let system = system_of(&problem);
     assert_eq!(system.particles()[0].friction_factor, rational(3, 2));
     assert_eq!(system.particles()[1].state, ContactState::Zero);
@@ -294,18 +292,18 @@ fn zero_reaction_and_friction_factors_are_written() {
 /// text, as JSON and on the page, until it is accepted. No answer depends on it.
 #[test]
 fn warnings_travel_with_the_file_until_they_are_accepted() {
-    let bench = Bench::new();
-    bench.changed("M.mtx", "heavy.mtx", "e-9", "e9");
-    let heavy = matrix_market("K.mtx", "heavy.mtx", "c.csv").command(&bench, "out.json");
+    let folder = inputs();
+    write_changed(&folder, "M.mtx", "heavy.mtx", "e-9", "e9");
+    let heavy = matrix_market("K.mtx", "heavy.mtx", "c.csv").command(&folder, "out.json");
     let accepted = format!("{heavy} --accept-warnings");
     let convert = |command: &str| {
         let text = exits(0, command);
-        let problem = read_problem_file(Path::new(&bench.path("out.json"))).unwrap();
+        let problem = read_problem_file(Path::new(&folder.path("out.json"))).unwrap();
         (text, problem)
     };
 
-    let page = bench.path("page.html");
-    let out = bench.path("out.json");
+    let page = folder.path("page.html");
+    let out = folder.path("out.json");
     let analyze = format!("analyze {out} --samples 0 --boxes 100");
     let to_page = format!("{analyze} --report {page}");
 

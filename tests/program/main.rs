@@ -8,6 +8,9 @@ mod corpus_reader;
 #[path = "../support/interrupt.rs"]
 mod interrupt;
 #[cfg(feature = "cli")]
+#[path = "../support/json_places.rs"]
+mod json_places;
+#[cfg(feature = "cli")]
 #[path = "../support/program.rs"]
 mod program;
 

@@ -7,6 +7,7 @@
 
 use crate::common::{example, exits, pencil_problem, read_json, repository, run};
 use crate::corpus_reader::{Entry, MALFORMED, entries, entry};
+use crate::json_places::places;
 use crate::program::Folder;
 use jsonschema::Validator;
 use mceip_check::certificate::{
@@ -352,30 +353,10 @@ fn malformed_problems_are_invalid_or_wrong_in_meaning() {
     assert_eq!(seen, meaning.len());
 }
 
-/// Adds all places of a value, as JSON pointers.
-fn add_places(value: &Value, at: &str, places: &mut Vec<String>) {
-    places.push(at.to_string());
-
-    match value {
-        Value::Object(fields) => {
-            for (key, field) in fields {
-                add_places(field, &format!("{at}/{key}"), places);
-            }
-        }
-        Value::Array(items) => {
-            for (index, item) in items.iter().enumerate() {
-                add_places(item, &format!("{at}/{index}"), places);
-            }
-        }
-        _ => {}
-    }
-}
-
 /// Every place of a file replaced by values of other kinds, left out, or with an unknown field in
 /// it.
 fn damaged(file: &Value) -> Vec<Value> {
-    let mut places = Vec::new();
-    add_places(file, "", &mut places);
+    let places = places(file, &|_| true);
     let replacements = [
         json!(null),
         json!(true),

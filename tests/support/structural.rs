@@ -6,6 +6,7 @@
 //! difference between them shows whatever the mutant means.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
+use crate::json_places::places;
 use mceip_exact::{Rational, parse, rational};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -21,33 +22,6 @@ pub fn mutate(certificate: &mut Value, pool: &[Value], rng: &mut ChaCha8Rng) {
             4 | 5 => change_list(certificate, rng),
             _ => change_number(certificate, rng),
         }
-    }
-}
-
-/// Pointers to all values that satisfy a condition.
-fn places(value: &Value, wanted: &dyn Fn(&Value) -> bool) -> Vec<String> {
-    let mut out = Vec::new();
-    collect(value, String::new(), wanted, &mut out);
-    out
-}
-
-fn collect(value: &Value, at: String, wanted: &dyn Fn(&Value) -> bool, out: &mut Vec<String>) {
-    match value {
-        Value::Object(fields) => {
-            for (key, field) in fields {
-                collect(field, format!("{at}/{key}"), wanted, out);
-            }
-        }
-        Value::Array(items) => {
-            for (k, item) in items.iter().enumerate() {
-                collect(item, format!("{at}/{k}"), wanted, out);
-            }
-        }
-        _ => {}
-    }
-
-    if wanted(value) {
-        out.push(at);
     }
 }
 
