@@ -17,7 +17,7 @@ use mceip_model::{
 };
 use mceip_oracle::TwoParticles;
 use mceip_paper::two_particles;
-use mceip_testkit::{Corner, Instance, mechanical};
+use mceip_testkit::{Corner, Instance, mechanical, system_of};
 use nalgebra::dvector;
 
 /// A motion in coordinates (q_1, q_2) of Fig. 1 with c = 3/5, s = 4/5, k = m = 1, mu = 8 and
@@ -254,7 +254,7 @@ fn every_step_satisfies_1_to_4() {
     let mut steps_with_stick = 0;
     let mut breaches_noticed = 0;
     for instance in mechanical(40, 3).unwrap() {
-        let system = system_of(&instance);
+        let system = system_of(&instance.problem);
         let equations = Equations::new(system).unwrap();
         let stepper = Stepper::new(&equations, 0.05).unwrap();
         if stepper.solutions() != StepSolutions::One {
@@ -357,7 +357,7 @@ fn nothing_grows_where_stability_is_proved() {
     let mut runs = 0;
     let mut resolved = 0;
     for instance in mechanical(200, 21).unwrap() {
-        let system = system_of(&instance);
+        let system = system_of(&instance.problem);
         if system.slip_particles().is_empty() {
             continue;
         }
@@ -384,7 +384,7 @@ fn nothing_grows_where_stability_is_proved() {
 }
 
 fn compare(instance: &Instance, met: &mut Met) {
-    let system = system_of(instance);
+    let system = system_of(&instance.problem);
     let equations = Equations::new(system).unwrap();
     let limit = Stepper::new(&equations, 0.0).unwrap();
     if let StepSolutions::Several { .. } = limit.solutions() {
@@ -454,13 +454,6 @@ fn has_certified_rate(trajectory: &Trajectory, step: f64, modes: &[GrowthMode]) 
         trajectory.rate
     );
     true
-}
-
-fn system_of(instance: &Instance) -> &System {
-    let Body::System(system) = instance.problem.body() else {
-        panic!("a system")
-    };
-    system
 }
 
 /// All solutions of MCEIP-lambda2, by a certificate that the checker has accepted.
