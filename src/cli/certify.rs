@@ -218,12 +218,12 @@ fn judge_on_both(
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
 #[derive(Default)]
 struct Judged {
-    certified: Vec<CertifiedPoint>,
+    certified: Vec<ClaimedPoint>,
     refused: Vec<Refused>,
 }
 
 /// A solution of the report that has a certificate of its own.
-struct CertifiedPoint {
+struct ClaimedPoint {
     /// Its place in the report, from 0.
     index: usize,
     claim: Claim,
@@ -306,10 +306,10 @@ impl Judged {
     /// the checker sees it too.
     fn lift(&mut self, problem: &Problem, system: &System) {
         let checker = ClaimChecker::new(problem);
-        for CertifiedPoint { index, claim, .. } in std::mem::take(&mut self.certified) {
+        for ClaimedPoint { index, claim, .. } in std::mem::take(&mut self.certified) {
             let claim = as_lifted(system, problem.unknown(), claim);
             match checker.verdict(problem.window(), &claim) {
-                Ok(verdict) => self.certified.push(CertifiedPoint {
+                Ok(verdict) => self.certified.push(ClaimedPoint {
                     index,
                     claim,
                     verdict,
@@ -531,7 +531,7 @@ impl<'a> Certifying<'a> {
                 self.job
                     .note(&format!("solution {index} (value {value}): listed before"));
             }
-            Ok((claim, verdict)) => judged.certified.push(CertifiedPoint {
+            Ok((claim, verdict)) => judged.certified.push(ClaimedPoint {
                 index,
                 claim,
                 verdict,
@@ -675,7 +675,7 @@ mod tests {
         let mut judged = Judged::default();
         for (index, claim) in [(0, claim.clone()), (4, wrong_claim(&claim))] {
             let verdict = verdict.clone();
-            judged.certified.push(CertifiedPoint {
+            judged.certified.push(ClaimedPoint {
                 index,
                 claim,
                 verdict,

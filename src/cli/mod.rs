@@ -175,7 +175,7 @@ pub fn main() -> ExitCode {
 /// that differ.
 const ALIKE: f64 = 0.5;
 
-/// The option or command that a misspelt one is nearest to, as a clause; nothing where none is near.
+/// The option or command that a misspelt one is nearest to, as a clause; nothing if none is near.
 fn meant(e: &clap::Error) -> String {
     let texts = |kinds: [ContextKind; 3]| {
         let found = kinds.into_iter().find_map(|kind| e.get(kind));

@@ -135,8 +135,8 @@ fn a_component_that_doubles_see_is_not_repaired() {
     assert!(has_tried_both, "{:?}", refused.attempts);
 }
 
-/// A box as wide as 2^-40 in every component, as it was once made, is refused; with its own radii it
-/// is accepted.
+/// A box as wide as 2^-40 in every component, as it was once made, is refused; with its own radii
+/// it is accepted.
 #[test]
 fn one_radius_for_all_components_is_refused() {
     let problem = chain(1);
