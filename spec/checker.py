@@ -1052,6 +1052,18 @@ def plus(a, b, factor=1):
     return out
 
 
+def transpose(m):
+    t = [{} for _ in m]
+    for i, r in enumerate(m):
+        for j, v in r.items():
+            t[j][i] = v
+    return t
+
+
+def symmetric_part(m):
+    return [{j: v / 2 for j, v in plus(r, c).items()} for r, c in zip(m, transpose(m))]
+
+
 def read_coefficients(lists, nf, ns):
     """Matrices in units of 2^-E, E their largest exponent: (coefficients as columns, E)."""
     out = []
@@ -1088,33 +1100,24 @@ class CondensedPencil:
         self.place = {i: k for k, i in enumerate(p.free)}
         nf = len(p.free)
         aff, bff = ([{self.place[j]: v for j, v in m[i].items() if j in self.place} for i in p.free] for m in (p.a, p.b))
-        for m in (aff, bff):  # hypothesis 1
-            demand(all(m[j].get(i) == v for i, r in enumerate(m) for j, v in r.items()), "condensation 1: not symmetric")
         demand(self.sigma > 0 and self.tau >= 0 and self.stiffness is not None, "condensation 1: sigma, mass_sigma")
         exact = [{}] * p.n, [{}] * p.n
         for k, (m, bound, factor, what) in enumerate((
                 (aff, self.sigma, self.stiffness, "stiffness"), (bff, self.tau, mass, "mass"))):
             radius = (p.spread or exact)[k]
             off = [sum(v for j, v in radius[i].items() if j in self.place) for i in p.free]
-            s = [plus(r, {i: -bound - off[i]}) for i, r in enumerate(m)]
+            s = [plus(r, {i: -bound - off[i]}) for i, r in enumerate(symmetric_part(m))]
             covered(s, nf, factor, False, f"condensation 1: {what}")
-        self.bff_norm = max((sum(abs(v) for v in r.values()) for r in bff), default=Q(0))
+        self.aff_norm, self.bff_norm = (  # of rows and of columns
+            max((sum(abs(v) for v in r.values()) for r in m + transpose(m)), default=Q(0)) for m in (aff, bff))
         self.tail_from = None
         if self.tail is not None:  # hypothesis 2
             start, factor, mass_factor = fields(self.tail, "from factor", "mass_factor")
             self.tail_from = number(start)
-            symmetric = []  # sym(...) - L L', which is the page's `twice ... by twice`
-            for m in ([plus(a, b, self.tail_from) for a, b in zip(p.a, p.b)], p.b):
-                t = [{} for _ in range(p.n)]
-                for i, r in enumerate(m):
-                    for j, v in r.items():
-                        t[i][j] = t[i].get(j, 0) + v / 2
-                        t[j][i] = t[j].get(i, 0) + v / 2
-                symmetric.append(t)
+            symmetric = [symmetric_part(m) for m in ([plus(a, b, self.tail_from) for a, b in zip(p.a, p.b)], p.b)]
             demand(factor is not None, "condensation 2: no factor")
             covered(symmetric[0], p.n, factor, True, "condensation 2: stiffness")
             covered(symmetric[1], p.n, mass_factor, False, "condensation 2: mass")
-        self.aff_norm = max((sum(abs(v) for v in r.values()) for r in aff), default=Q(0))
         self.bits = [[of[i] for i in p.s] for of in bits or [row_bits(rows, k) for k in (1, 2)]]
         self.scales = [[Q(rows[i][0], 2**b) for i, b in zip(p.s, of)] for of in self.bits]
         self.common = lcm(1, *(rows[i][0] for i in p.free))
@@ -1197,25 +1200,26 @@ class CondensedPencil:
         den = lcm(1, *(x.denominator for m in (t0, b) for r in m for x in r.values()))
         t0, t1 = ([{j: int(x * den) for j, x in r.items()} for r in m] for m in (t0, b))
         spot = {i: k for k, i in enumerate(p.s)}
-        f0, f1 = ([[(place[j], x) for j, x in m[i].items() if j in place] for i in p.free] for m in (t0, t1))
+        f = [[{place[j]: x for j, x in m[i].items() if j in place} for i in p.free] for m in (t0, t1)]
         sf = [[[(place[j], x) for j, x in m[i].items() if j in place] for i in p.s] for m in (t0, t1)]
 
-        def residual(columns, exponent, given):
+        def residual(f, columns, exponent, given):
             """given - F columns by powers of d, units 1/(den 2^exponent)."""
+            f0, f1 = ([list(line.items()) for line in m] for m in f)
             out = [[[0] * nf for _ in range(ns)] for _ in range(max(len(columns) + 1, 2))]
             for k in (0, 1):
                 for (row, col), x in given[k].items():
                     out[k][col][row] += x << exponent
             for k, coefficient in enumerate(columns):
                 for col, vector in enumerate(coefficient):
-                    for f, target in ((f0, out[k][col]), (f1, out[k + 1][col])):
-                        for i, line in enumerate(f):
+                    for rows, target in ((f0, out[k][col]), (f1, out[k + 1][col])):
+                        for i, line in enumerate(rows):
                             if line:
                                 target[i] -= sum([x * vector[j] for j, x in line])
             return out
         fs = [{(place[i], spot[j]): x for i in p.free for j, x in m[i].items() if j in spot} for m in (t0, t1)]
         sft = [{(j, i): x for i, line in enumerate(m) for j, x in line} for m in sf]
-        r, l = residual(w, ew, fs), residual(v, ev, sft)
+        r, l = residual(f, w, ew, fs), residual([transpose(m) for m in f], v, ev, sft)  # l = T_sf' - F' V
         low = len(w)  # powers below belong to r_<
         # Z = T_ss - T_sf W - V' r_>, units 1/(den 2^(ew + ev))
         z = [[[0] * ns for _ in range(ns)] for _ in range(len(v) + len(r))]

@@ -1,15 +1,16 @@
 //! Elimination of the free variables without inverting F(t) = T_ff(t).
 //!
-//! For any W and V, with r = T_fs - F W and l = T_sf' - F V, the Schur complement is exactly
+//! For any W and V, with r = T_fs - F W and l = T_sf' - F'V, the Schur complement is exactly
 //!
 //! ```text
 //!     T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r.
 //! ```
 //!
-//! F is symmetric, and F(t) >= (sigma + t tau) I for t >= 0, because A_ff >= sigma I and B_ff >=
-//! tau I are hypotheses that the certificate proves (`psd`). So entry (i, j) of the last term is at
-//! most |l_i| |r_j| / (sigma + t tau), with Euclidean norms of columns. W and V approximate F^-1
-//! T_fs and F^-1 T_sf', which makes r and l small, but nothing depends on that.
+//! sym(F(t)) >= (sigma + t tau) I for t >= 0, because sym(A_ff) >= sigma I and sym(B_ff) >= tau I
+//! are hypotheses that the certificate proves (`psd`). So |F z| |z| >= z'F z >= (sigma + t tau)
+//! |z|^2, and entry (i, j) of the last term is at most |l_i| |r_j| / (sigma + t tau), with Euclidean
+//! norms of columns. F need not be symmetric. W and V approximate F^-1 T_fs and (F^-1)'T_sf', which
+//! makes r and l small, but nothing depends on that.
 //!
 //! W and V are polynomials in d = t - center, so r and l are too, and the bracket is a polynomial
 //! matrix Z(d), computed exactly. Of V'r only the coefficients of r beyond the degree of W are
@@ -320,8 +321,8 @@ impl AnchorOfParts for CriticalAnchor {
     }
 }
 
-/// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0,
-/// for every member.
+/// sym(A_ff) - sigma I and sym(B_ff) - tau I are positive semidefinite, sigma > 0, tau >= 0, for
+/// every member.
 fn check_hypotheses(parts: &PartBlocks, bounds: FreeBounds<'_>) -> Result<(), CoverFault> {
     let blocks = &parts.middle[0];
     let radius = parts.radii.first();
@@ -331,7 +332,6 @@ fn check_hypotheses(parts: &PartBlocks, bounds: FreeBounds<'_>) -> Result<(), Co
         return Err(CoverFault::hypothesis("sigma > 0", 0));
     }
 
-    blocks.symmetric()?;
     if tau.is_negative() {
         return Err(CoverFault::hypothesis("mass_sigma >= 0", 0));
     }
@@ -339,7 +339,7 @@ fn check_hypotheses(parts: &PartBlocks, bounds: FreeBounds<'_>) -> Result<(), Co
     let stiffness = blocks.shifted_free_block(LinearPart::Constant, sigma, radius);
     semidefinite(
         &stiffness,
-        &(&blocks.common * sigma.denom()),
+        &(&blocks.common * sigma.denom() * 2),
         Some(bounds.stiffness_factor),
         false,
         "A_ff - sigma I positive semidefinite",
@@ -347,7 +347,7 @@ fn check_hypotheses(parts: &PartBlocks, bounds: FreeBounds<'_>) -> Result<(), Co
     let mass = blocks.shifted_free_block(LinearPart::Linear, tau, radius);
     semidefinite(
         &mass,
-        &(&blocks.common * tau.denom()),
+        &(&blocks.common * tau.denom() * 2),
         bounds.mass_factor,
         false,
         "B_ff - mass_sigma I positive semidefinite",
@@ -461,6 +461,8 @@ struct AnchorElimination<'a> {
     anchor: AnchorPolynomials<'a>,
     /// The blocks as matrices linear in d = t - p/q, all of them times D q.
     about: LinearBlocks,
+    /// F' about the center; `None` where F is symmetric.
+    transposed_free: Option<Linear>,
     w: MatrixPolynomial<'a>,
     v: MatrixPolynomial<'a>,
     /// Bits of a coefficient of an entry of Z, at most.
@@ -525,8 +527,8 @@ impl IntegralBlocks {
         blocks
     }
 
-    /// Demands that T_ff is symmetric, A_ff and B_ff each.
-    fn symmetric(&self) -> Result<(), CoverFault> {
+    /// Is T_ff symmetric, A_ff and B_ff each?
+    fn is_symmetric(&self) -> bool {
         for (i, row) in self.of_t.ff.iter().enumerate() {
             for (j, a, b) in row {
                 let has_mirror = match self.free_entry(*j, i) {
@@ -534,12 +536,12 @@ impl IntegralBlocks {
                     None => a.is_zero() && b.is_zero(),
                 };
                 if !has_mirror {
-                    return Err(CoverFault::hypothesis("T_ff symmetric", i));
+                    return false;
                 }
             }
         }
 
-        Ok(())
+        true
     }
 
     /// The stored entry (i, j) of D T_ff.
@@ -549,8 +551,9 @@ impl IntegralBlocks {
         Some(&row[position])
     }
 
-    /// A_ff - shift I or B_ff - shift I, the constant part of T_ff or the linear one, in units of
-    /// 1 / (D times the denominator of the shift); the row sums of the radii come off its diagonal.
+    /// Twice sym(A_ff) - shift I or sym(B_ff) - shift I, of the constant part of T_ff or the linear
+    /// one, in units of 1 / (D times the denominator of the shift); the row sums of the radii come
+    /// off its diagonal.
     fn shifted_free_block(
         &self,
         part: LinearPart,
@@ -559,22 +562,21 @@ impl IntegralBlocks {
     ) -> SymmetricRows {
         let diagonal_shift = &self.common * shift.numer();
 
-        let mut block = SymmetricRows::with_capacity(self.free);
+        let mut block: SymmetricRows = vec![BTreeMap::new(); self.free];
         for (i, row) in self.of_t.ff.iter().enumerate() {
-            let mut entries: BTreeMap<usize, Integer> = BTreeMap::new();
             for (j, entry) in row_of(row, part) {
-                entries.insert(j, entry * shift.denom());
+                let entry = entry * shift.denom();
+                *block[i].entry(j).or_default() += &entry;
+                *block[j].entry(i).or_default() += entry;
             }
 
-            let diagonal = entries.entry(i).or_default();
-            *diagonal -= &diagonal_shift;
+            let mut taken = diagonal_shift.clone();
             if let Some(radius) = radius {
                 let of_row = row_of(&radius.of_t.ff[i], part).into_iter();
                 let sum: Integer = of_row.map(|(_, radius)| radius).sum();
-                *diagonal -= sum * shift.denom();
+                taken += sum * shift.denom();
             }
-
-            block.push(entries);
+            *block[i].entry(i).or_default() -= taken * 2;
         }
 
         block
@@ -591,11 +593,13 @@ impl IntegralBlocks {
         let left = anchor.left.unwrap_or(anchor.right);
         let v = self.polynomial(left, &self.factor)?;
         let entry_bits = self.affordable(anchor.center, &w, &v)?;
+        let about = self.about(anchor.center);
 
         Ok(AnchorElimination {
             blocks: self,
             radii,
-            about: self.about(anchor.center),
+            transposed_free: (!self.is_symmetric()).then(|| transpose(&about.ff, self.free)),
+            about,
             anchor,
             w,
             v,
@@ -672,15 +676,22 @@ impl IntegralBlocks {
         }
     }
 
-    /// |dF/dt| / sigma in the maximum row sum.
+    /// A bound of |dF/dt| / sigma in the Euclidean norm: the largest sum of a row or a column.
+    ///
+    /// The square of the norm is at most the largest sum of a row times that of a column. Where F
+    /// is not symmetric the rows alone do not bound it.
     fn drift(&self, sigma: &Rational) -> Rational {
-        let mut largest = Integer::zero();
-        for row in &self.of_t.ff {
-            let sum: Integer = row.iter().map(|(_, _, b)| b.abs()).sum();
-            largest = largest.max(sum);
+        let mut of_rows = vec![Integer::zero(); self.free];
+        let mut of_columns = of_rows.clone();
+        for (i, row) in self.of_t.ff.iter().enumerate() {
+            for (j, _, b) in row {
+                of_rows[i] += b.abs();
+                of_columns[*j] += b.abs();
+            }
         }
 
-        Rational::new(largest, self.common.clone()) / sigma
+        let largest = of_rows.into_iter().chain(of_columns).max();
+        Rational::new(largest.unwrap_or_default(), self.common.clone()) / sigma
     }
 }
 
@@ -721,14 +732,16 @@ impl AnchorElimination<'_> {
         ResidualEquations::new(&self.about.ff, c, self.anchor.right, &one)
     }
 
-    /// Norms of the columns of l = T_sf' - F V, coefficient by coefficient, in units of
+    /// Norms of the columns of l = T_sf' - F'V, coefficient by coefficient, in units of
     /// 1 / (D q 2^e_v), column i multiplied by the factor of slip row i.
     ///
-    /// Where V is W and T_sf' is T_fs, l is r.
+    /// Where F is symmetric, V is W and T_sf' is T_fs, l is r.
     fn left_residual_norms(&self, right: &Residual) -> Norms {
         let left = self.anchor.left.unwrap_or(self.anchor.right);
         let c = transpose(&self.about.sf, self.blocks.free);
-        let equations = ResidualEquations::new(&self.about.ff, c, left, &self.blocks.factor);
+        // Not F: V'F stands in the identity for T_ss - T_sf F^-1 T_fs.
+        let free = self.transposed_free.as_ref().unwrap_or(&self.about.ff);
+        let equations = ResidualEquations::new(free, c, left, &self.blocks.factor);
         if self.anchor.left.is_none() && equations.is_that_of(&self.right_equations()) {
             return right.norms(&equations.column_factors);
         }
