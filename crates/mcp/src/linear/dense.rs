@@ -108,10 +108,21 @@ impl SparseLu {
 
     /// Replaces right-hand sides, columns of length `order`, by solutions.
     pub fn solve(&self, columns: &mut [Vec<f64>]) {
+        self.solve_by(columns, |factors, right| factors.solve_in_place(right));
+    }
+
+    /// The same with the transpose of the matrix.
+    pub fn solve_transposed(&self, columns: &mut [Vec<f64>]) {
+        self.solve_by(columns, |factors, right| {
+            factors.solve_transpose_in_place(right);
+        });
+    }
+
+    fn solve_by(&self, columns: &mut [Vec<f64>], solve: fn(&Lu<usize, f64>, &mut Mat<f64>)) {
         let Some(factors) = &self.factors else { return };
 
         let mut right = from_columns(self.order, columns);
-        factors.solve_in_place(&mut right);
+        solve(factors, &mut right);
 
         for (col, column) in columns.iter_mut().enumerate() {
             for (row, value) in column.iter_mut().enumerate() {
