@@ -14,7 +14,7 @@ use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_testkit::generators::raw::{digits, doubled, elements, graph, zeros};
-use mceip_testkit::generators::window;
+use mceip_testkit::generators::{permuted, window, with_skew_free_block};
 use mceip_testkit::{
     Instance, compare_complete, degenerate, enumerated, known, mechanical, mechanical_pencil,
     random_pencils, table1_grid,
@@ -100,6 +100,27 @@ fn special_case(seed: u64, k: usize) -> Case {
         family: special(name),
         label: format!("{name} {k} n={n}"),
         problem: Problem::new(body, unknown_of(k / 3), window(&mut rng)).unwrap(),
+    }
+}
+
+/// A case of which the free block is not symmetric, the free variables anywhere.
+fn skew_case(seed: u64, k: usize) -> Case {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed * 13_000_003 + k as u64);
+    let slip = rng.random_range(1..=6);
+    let free = rng.random_range(2..=6);
+
+    let unknown = unknown_of(k);
+    let symmetric = if k % 4 < 2 {
+        elements(unknown, &mut rng, slip, free)
+    } else {
+        digits(&mut rng, slip, free)
+    };
+    let skew = with_skew_free_block(&mut rng, &symmetric.unwrap());
+    let body = Body::Pencil(permuted(&mut rng, &skew));
+    Case {
+        family: general("free block with a skew part"),
+        label: format!("skew {k} n_s={slip} n_f={free}"),
+        problem: Problem::new(body, unknown, window(&mut rng)).unwrap(),
     }
 }
 
@@ -389,6 +410,25 @@ fn two_hundred_pencils_agree_with_enumeration() {
     let report = Campaign::run(&all).report();
 
     report.assert_mostly_decided();
+}
+
+/// Only the symmetric part of the free block has to be definite: all are decided.
+#[test]
+fn free_blocks_that_are_not_symmetric_agree_with_enumeration() {
+    let cases: Vec<Case> = (0..80).map(|k| skew_case(1, k)).collect();
+    let all: Vec<&Case> = cases.iter().collect();
+    let has_skew_part = |case: &&&Case| match case.problem.body() {
+        Body::Pencil(pencil) => {
+            let free = pencil.free();
+            pencil.a().submatrix(free, free).first_asymmetry().is_some()
+        }
+        _ => false,
+    };
+    assert!(all.iter().filter(has_skew_part).count() > 70);
+
+    let report = Campaign::run(&all).report();
+
+    assert_eq!(report.general, 0.0);
 }
 
 /// A pencil of order 1 to 4 with entries from -3 to 3: small enough that singular supports and

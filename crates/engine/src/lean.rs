@@ -25,7 +25,7 @@
 use crate::analysis::friction_parts;
 use crate::run::{Progress, Watch, in_threads};
 use crate::search::complete::pieces::anchor::{CenterSolver, MAX_EXPONENT};
-use crate::search::complete::pieces::blocks::{LinearColumns, PencilBlocks};
+use crate::search::complete::pieces::blocks::{FreeEquations, PencilBlocks};
 use crate::search::complete::pieces::reverse::exchanged;
 use mceip_check::Provable;
 use mceip_check::certificate::{
@@ -473,10 +473,10 @@ fn at_most(what: &'static str, limit: usize, got: usize) -> Result<(), LeanError
 }
 
 impl RightHandSide {
-    fn of(self, blocks: &[PencilBlocks]) -> &LinearColumns {
+    fn of(self, blocks: &[PencilBlocks]) -> &FreeEquations {
         match self {
-            RightHandSide::Right(number) => &blocks[number].fs,
-            RightHandSide::Left(number) => &blocks[number].sf,
+            RightHandSide::Right(number) => &blocks[number].right,
+            RightHandSide::Left(number) => &blocks[number].left,
         }
     }
 }

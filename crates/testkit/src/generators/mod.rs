@@ -138,6 +138,32 @@ pub fn with_scaled_rows(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
     rebuilt(pencil, &|i, _, v| v * &factors[i])
 }
 
+/// The pencil with a skew part of one-digit integers added to A_ff and B_ff, or to A_ff alone where
+/// B_ff is zero: the free block is not symmetric then, its symmetric part is what it was.
+pub fn with_skew_free_block(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
+    let free = pencil.free();
+    let mut with_skew_part = |matrix: &Sparse| {
+        let is_zero = matrix.submatrix(free, free).entries().next().is_none();
+        let mut entries: Vec<_> = matrix
+            .entries()
+            .map(|(i, j, v)| (i, j, v.clone()))
+            .collect();
+        for (place, &i) in free.iter().enumerate().filter(|_| !is_zero) {
+            for &j in &free[..place] {
+                let skew = whole(rng.random_range(-9..=9));
+                entries.push((j, i, -&skew));
+                entries.push((i, j, skew));
+            }
+        }
+
+        Sparse::from_entries(pencil.order(), pencil.order(), entries)
+    };
+    let [a, b] = [pencil.a(), pencil.b()].map(&mut with_skew_part);
+
+    // Nothing is refused, because the shape and the free variables are the same.
+    Pencil::new(a, b, free.to_vec()).unwrap_or_else(|_| pencil.clone())
+}
+
 /// Another order of the variables, x and y with it.
 pub fn permuted(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
     let order = random_order(rng, pencil.order());

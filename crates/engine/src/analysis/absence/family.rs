@@ -412,7 +412,7 @@ pub(in crate::analysis) fn unit_of_lambda2(family: &MuFamily) -> Result<f64, Com
     }
 
     let blocks = PencilBlocks::of(&constant);
-    let factor = blocks.stiffness.cholesky();
+    let factor = blocks.factor_at(0.0);
     let factor = factor.ok_or(CompleteError::NotDefinite {
         what: "A_ff",
         index: constant.free()[0],

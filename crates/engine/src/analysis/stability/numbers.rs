@@ -119,9 +119,10 @@ impl FreeNumbers {
 
         let blocks = PencilBlocks::of(stiffness);
         let bound = stiffness_bound(&blocks)?;
+        let factor = blocks.factor_at(0.0)?;
         let solved = |columns: &[Vec<f64>]| {
             let mut columns = columns.to_vec();
-            bound.plain_factor.solve_all(&mut columns);
+            factor.solve_all(&mut columns, false);
             columns
         };
 
@@ -130,19 +131,19 @@ impl FreeNumbers {
         } else {
             None
         };
-        let mut c = blocks.sf.slope.clone();
+        let mut c = blocks.left.given.slope.clone();
         if let Some(inertia) = &inertia {
             for (c_i, g_i) in c.iter_mut().zip(inertia.doubles()) {
-                let product = blocks.stiffness_rows.times(&g_i);
+                let product = blocks.right.stiffness.times(&g_i);
                 c_i.iter_mut().zip(product).for_each(|(c, p)| *c -= p);
             }
         }
 
         Some(FreeNumbers(Some(FreeParts {
-            w: solved(&blocks.fs.constant),
-            v: solved(&blocks.sf.slope),
-            coupling: blocks.fs.constant,
-            friction: blocks.sf.slope,
+            w: solved(&blocks.right.given.constant),
+            v: solved(&blocks.left.given.slope),
+            coupling: blocks.right.given.constant,
+            friction: blocks.left.given.slope,
             c,
             inertia,
             sigma: bound.sigma,
@@ -244,7 +245,7 @@ impl Inertia {
     fn of(mass: &Pencil) -> Option<Inertia> {
         let blocks = PencilBlocks::of(mass);
         let factor = blocks.stiffness.cholesky()?; // of M_ff, the constant part of this pencil
-        let mut columns = blocks.sf.slope;
+        let mut columns = blocks.left.given.slope;
         factor.solve_all(&mut columns);
         let unit = f64::from(INERTIA_EXPONENT).exp2();
         let in_units = |columns: Vec<Vec<f64>>| -> Vec<Vec<Integer>> {

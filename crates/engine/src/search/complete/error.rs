@@ -17,8 +17,8 @@ pub enum CompleteError {
     NothingSlips,
     /// The free variables cannot be eliminated.
     #[error(
-        "P1, P2: expected {what} symmetric and definite (B_ff: semidefinite), got the contrary at \
-         variable {index}"
+        "P1, P2: expected the symmetric part of {what} to be definite (of B_ff: semidefinite), got the \
+         contrary at variable {index}"
     )]
     NotDefinite {
         /// Which block.

@@ -1,8 +1,8 @@
 //! Anchors of a condensation: centres along the unknown, and the elimination about each of them.
 //!
 //! About a centre c, with d = t - c, the Taylor polynomials W(d) of F^-1 T_fs and V(d) of
-//! F^-1 T_sf' are computed in doubles and rounded to integers over a power of two. With the
-//! residuals r = T_fs - F W and l = T_sf' - F V the condensed pencil is
+//! (F^-1)'T_sf' are computed in doubles and rounded to integers over a power of two. With the
+//! residuals r = T_fs - F W and l = T_sf' - F'V the condensed pencil is
 //!
 //! ```text
 //!     T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r,
@@ -11,12 +11,13 @@
 //! a polynomial and a remainder that is small twice over (see `check::cover::condensed`). The
 //! coefficients of W follow from F_c W_k = [k = 0] T_fs(c) + [k = 1] B_fs - B_ff W_(k-1).
 //!
-//! F has to be symmetric positive definite. Called by `condense`, `reverse` and `precise_anchor`.
+//! The symmetric part of F has to be positive definite. Called by `condense`, `reverse` and
+//! `precise_anchor`.
 
-use super::blocks::{LinearColumns, PencilBlocks};
+use super::blocks::{FreeEquations, FreeFactor, PencilBlocks};
 use super::expansion::{ColumnNorms, Expansion};
 use super::matrix::{SquareMatrix, zeros};
-use super::skyline::{Skyline, dot, nonzero, sparse_dot};
+use super::skyline::{dot, nonzero, sparse_dot};
 use super::view::row_factor;
 use crate::search::complete::dyadic::multiple_near;
 use crate::search::complete::rounding::integer;
@@ -233,8 +234,8 @@ impl<'a> FreeElimination<'a> {
     pub(crate) fn expand(&self, center: &Rational, precision: Precision) -> Option<ExpandedAnchor> {
         let at = to_f64(center);
         let solution = CenterSolver::about(&self.blocks, at)?;
-        let right = solution.taylor(&self.blocks.fs, precision.degree, precision.right_bits);
-        let left = solution.taylor(&self.blocks.sf, precision.degree, precision.left_bits);
+        let right = solution.taylor(&self.blocks.right, precision.degree, precision.right_bits);
+        let left = solution.taylor(&self.blocks.left, precision.degree, precision.left_bits);
 
         let expansion = self.expansion(at, &right.rounded, &left.rounded);
         let anchor = Anchor {
@@ -254,7 +255,7 @@ impl<'a> FreeElimination<'a> {
         let solution = CenterSolver::about(&self.blocks, at)?;
         let degree = anchor.right.len().saturating_sub(1);
         let bits = bits_of(&anchor.left).max(OF_FAMILY.coarse.left_bits);
-        let left = solution.taylor(&self.blocks.sf, degree, bits);
+        let left = solution.taylor(&self.blocks.left, degree, bits);
         let right = columns_of_all(&anchor.right, self.blocks.slip.len());
         let expansion = self.expansion(at, &right, &left.rounded);
         Some(Beside {
@@ -273,8 +274,8 @@ impl<'a> FreeElimination<'a> {
     ) -> Expansion {
         let blocks = &self.blocks;
         let order = blocks.slip.len();
-        let right_residual = residual(blocks, &blocks.fs, center, right);
-        let left_residual = residual(blocks, &blocks.sf, center, left);
+        let right_residual = residual(&blocks.right, center, right);
+        let left_residual = residual(&blocks.left, center, left);
         let row_factors: Vec<f64> = blocks
             .slip
             .iter()
@@ -357,10 +358,10 @@ fn bits_of(coefficients: &[IntegerMatrix]) -> i32 {
         .unwrap_or(0)
 }
 
-/// Solutions with F(center), which is given by its Cholesky factor.
+/// Solutions with F(center), or with its transpose.
 pub(crate) struct CenterSolver<'a> {
     blocks: &'a PencilBlocks,
-    factor: Skyline,
+    factor: FreeFactor,
     center: f64,
 }
 
@@ -381,29 +382,29 @@ impl<'a> CenterSolver<'a> {
         })
     }
 
-    /// The Taylor coefficients of F^-1 (C + tD) up to a degree, or up to its own where F is
-    /// constant. `bits` are those of the first one.
-    fn taylor(&self, given: &LinearColumns, degree: usize, bits: i32) -> Taylor {
+    /// The Taylor coefficients of the solution of F W = C + tD, or of F'V, up to a degree, or up to
+    /// its own where F is constant. `bits` are those of the first one.
+    fn taylor(&self, equations: &FreeEquations, degree: usize, bits: i32) -> Taylor {
         let degree = if !self.blocks.mass_is_zero {
             degree
-        } else if given.is_constant() {
+        } else if equations.given.is_constant() {
             0
         } else {
             1
         };
 
-        self.coefficients(given, degree + 1, |k, columns| {
+        self.coefficients(equations, degree + 1, |k, columns| {
             Rounded::of(columns, bits - BITS_PER_DEGREE * k as i32)
         })
     }
 
-    /// The Taylor coefficients of F^-1 (C + tD), each rounded to units of 2^-exponent.
+    /// The Taylor coefficients of the solution, each rounded to units of 2^-exponent.
     pub(crate) fn rounded_to(
         &self,
-        given: &LinearColumns,
+        equations: &FreeEquations,
         exponents: &[u32],
     ) -> Vec<IntegerMatrix> {
-        let taylor = self.coefficients(given, exponents.len(), |k, columns| {
+        let taylor = self.coefficients(equations, exponents.len(), |k, columns| {
             Rounded::to(columns, exponents[k])
         });
         taylor.integers
@@ -412,14 +413,14 @@ impl<'a> CenterSolver<'a> {
     /// So many coefficients, each rounded before the next one is computed from it.
     fn coefficients(
         &self,
-        given: &LinearColumns,
+        equations: &FreeEquations,
         count: usize,
         rounded: impl Fn(usize, &SlipColumns) -> Rounded,
     ) -> Taylor {
         let mut taylor = Taylor::default();
         for k in 0..count {
-            let mut columns = self.right_hand_sides(given, k, taylor.rounded.last());
-            self.factor.solve_all(&mut columns);
+            let mut columns = self.right_hand_sides(equations, k, taylor.rounded.last());
+            self.factor.solve_all(&mut columns, equations.is_transposed);
 
             let rounded = rounded(k, &columns);
             taylor.integers.push(rounded.integers);
@@ -432,10 +433,11 @@ impl<'a> CenterSolver<'a> {
     /// [k = 0] (C + center D) + [k = 1] D - B_ff W_(k-1), by columns.
     fn right_hand_sides(
         &self,
-        given: &LinearColumns,
+        equations: &FreeEquations,
         k: usize,
         before: Option<&SlipColumns>,
     ) -> SlipColumns {
+        let given = &equations.given;
         let slip = 0..self.blocks.slip.len();
         let mut columns: SlipColumns = match k {
             0 => slip.map(|j| given.at(j, self.center)).collect(),
@@ -444,7 +446,7 @@ impl<'a> CenterSolver<'a> {
         };
 
         if let Some(before) = before {
-            let products = self.blocks.mass_rows.times_all(before);
+            let products = equations.mass.times_all(before);
             for (column, product) in columns.iter_mut().zip(products) {
                 for (c, p) in column.iter_mut().zip(product) {
                     *c -= p;
@@ -456,15 +458,11 @@ impl<'a> CenterSolver<'a> {
     }
 }
 
-/// The coefficients of C + tD - F(t) W in powers of d = t - center.
-fn residual(
-    blocks: &PencilBlocks,
-    given: &LinearColumns,
-    center: f64,
-    solution: &[SlipColumns],
-) -> Vec<SlipColumns> {
-    let order = blocks.slip.len();
-    let zero: SlipColumns = vec![vec![0.0; blocks.free.len()]; order];
+/// The coefficients of C + tD - F(t) W, or of C + tD - F(t)'V, in powers of d = t - center.
+fn residual(equations: &FreeEquations, center: f64, solution: &[SlipColumns]) -> Vec<SlipColumns> {
+    let given = &equations.given;
+    let order = given.slope.len();
+    let zero: SlipColumns = given.slope.iter().map(|c| vec![0.0; c.len()]).collect();
     let mut residual = vec![zero; (solution.len() + 1).max(2)];
 
     for j in 0..order {
@@ -473,8 +471,8 @@ fn residual(
     }
 
     for (k, coefficient) in solution.iter().enumerate() {
-        let mass = blocks.mass_rows.times_all(coefficient);
-        let stiffness = blocks.stiffness_rows.times_all(coefficient);
+        let mass = equations.mass.times_all(coefficient);
+        let stiffness = equations.stiffness.times_all(coefficient);
         for j in 0..order {
             for (i, r) in residual[k][j].iter_mut().enumerate() {
                 *r -= stiffness[j][i] + center * mass[j][i];
@@ -506,7 +504,10 @@ impl CondensedPolynomial<'_> {
         let mut coefficients = vec![zeros(order); self.degree() + 1];
 
         for i in 0..order {
-            let [constant, slope] = [&self.blocks.sf.constant, &self.blocks.sf.slope];
+            let [constant, slope] = [
+                &self.blocks.left.given.constant,
+                &self.blocks.left.given.slope,
+            ];
             let row = [constant, slope].map(|rows| nonzero(&rows[i]));
             for j in 0..order {
                 let entry = self.entry(i, j, &row);

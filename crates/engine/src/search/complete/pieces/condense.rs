@@ -1,11 +1,11 @@
 //! Elimination of the free variables: the condensation of the certificate, and the view it gives.
 //!
-//! A condensation proves A_ff >= sigma I and B_ff >= tau I by rounded Cholesky factors, and has an
-//! anchor (`anchor`) for each part of the window. Above the last anchor of an infinite window
-//! stands either a tail (`leaf::tail`: no solution lies there) or a reversed anchor (`reverse`),
-//! whichever begins lower.
+//! A condensation proves sym(A_ff) >= sigma I and sym(B_ff) >= tau I by rounded Cholesky factors,
+//! and has an anchor (`anchor`) for each part of the window. Above the last anchor of an infinite
+//! window stands either a tail (`leaf::tail`: no solution lies there) or a reversed anchor
+//! (`reverse`), whichever begins lower.
 //!
-//! Input: a pencil with free variables, A_ff symmetric positive definite, B_ff symmetric positive
+//! Input: a pencil with free variables, sym(A_ff) positive definite, sym(B_ff) positive
 //! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
 use super::anchor::{
@@ -71,8 +71,8 @@ impl<'a> DefinitePencils<'a> {
 /// Condenses a pencil with free variables.
 ///
 /// # Errors
-/// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
-/// B_ff is indefinite.
+/// [`CompleteError::NotDefinite`] where the symmetric part of A_ff is not positive definite (in
+/// doubles) or that of B_ff is indefinite.
 ///
 /// `definite` are this pencil, or others of a family with the same free rows. `precisions` are
 /// those of the anchors.
@@ -83,7 +83,6 @@ pub(crate) fn condense(
     precisions: Precisions,
 ) -> Result<Condensed, CompleteError> {
     let blocks = PencilBlocks::of(pencil);
-    demand_symmetry(&blocks)?;
 
     // The bounds of A_ff and B_ff.
     let first_free = blocks.free[0];
@@ -126,7 +125,11 @@ pub(crate) fn condense(
     let lowest_frequency = if blocks.mass_is_zero {
         0.0
     } else {
-        blocks.lowest_frequency(&stiffness.plain_factor)
+        let factor = blocks.factor_at(0.0).ok_or(CompleteError::NotDefinite {
+            what: "A_ff",
+            index: first_free,
+        })?;
+        blocks.lowest_frequency(&factor)
     };
 
     // An anchor for each part of the window below that.
@@ -276,43 +279,21 @@ fn without_bound(what: &'static str, block: &Sparse, free: &[usize]) -> Complete
     }
 }
 
-fn demand_symmetry(blocks: &PencilBlocks) -> Result<(), CompleteError> {
-    let rows = [
-        ("A_ff", blocks.stiffness_asymmetry),
-        ("B_ff", blocks.mass_asymmetry),
-    ];
-    for (what, asymmetric_row) in rows {
-        if let Some(row) = asymmetric_row {
-            let index = blocks.free[row];
-            return Err(CompleteError::NotDefinite { what, index });
-        }
-    }
-
-    Ok(())
-}
-
-/// A_ff >= sigma I and its evidence.
+/// sym(A_ff) >= sigma I and its evidence.
 pub(crate) struct StiffnessBound {
     pub(crate) sigma: Rational,
     pub(crate) factor: Factor,
-    /// The Cholesky factor of A_ff itself.
-    pub(crate) plain_factor: Skyline,
 }
 
-/// The bound of A_ff; `None` where it is not definite in doubles.
+/// The bound of sym(A_ff); `None` where it is not definite in doubles.
 pub(crate) fn stiffness_bound(blocks: &PencilBlocks) -> Option<StiffnessBound> {
-    let plain_factor = blocks.stiffness.cholesky()?;
     let bound = blocks.stiffness.below_spectrum()?;
     let sigma = short_below(CLAIMED * bound)?;
     let factor = factor_above(&blocks.stiffness, &sigma, SLACK * bound)?;
-    Some(StiffnessBound {
-        sigma,
-        factor,
-        plain_factor,
-    })
+    Some(StiffnessBound { sigma, factor })
 }
 
-/// B_ff >= tau I and its evidence.
+/// sym(B_ff) >= tau I and its evidence.
 pub(crate) struct MassBound {
     pub(crate) tau: Rational,
     /// `None` where the block is a non-negative diagonal.

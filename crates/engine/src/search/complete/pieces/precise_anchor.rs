@@ -48,7 +48,7 @@ pub(crate) fn precise_anchor(
             let before = k.checked_sub(1).map(|p| &anchor.right[p]);
             let equation = CoefficientEquation::new(k, &anchor.right[k], before);
             let mut columns = equation.residual(&rows);
-            factor.solve_all(&mut columns);
+            factor.solve_all(&mut columns, false);
             if add(&mut anchor.right[k], &columns)? {
                 break;
             }

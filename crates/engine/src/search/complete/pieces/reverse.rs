@@ -36,7 +36,7 @@ pub(crate) fn beyond(
     let exchanged = exchanged(pencil).ok()?;
     let elimination = FreeElimination::new(&exchanged, bounds.exchanged());
     let blocks = &elimination.blocks;
-    let lowest = blocks.lowest_frequency(&blocks.stiffness.cholesky()?);
+    let lowest = blocks.lowest_frequency(&blocks.factor_at(0.0)?);
     let only_first = centers(lowest, 0.0, f64::MIN_POSITIVE);
     let center = only_first.first()?;
     let from = short_near(1.0 / center.end, 0.05 / center.end)?;
