@@ -6,11 +6,11 @@
        F(d) = A_0,ff + d A_1,ff,   G(d) in the free rows,   H(d), D(d) in the other rows.
 
    The anchor gives series W(d) and V(d) of integer matrices that approximate u F^-1 G and
-   u F^-1 H'.  With r = u G - F W and l = u H' - F V, series as well,
+   u F'^-1 H'.  With r = u G - F W and l = u H' - F' V, series as well,
 
        u^2 (D - H F^-1 G) = Z - l' F^-1 r,      Z = u^2 D - u H W - V' r.
 
-   F(d) >= q (sigma + t tau) I is shown by factors that cover c A_ff - d I and c B_ff - d I
+   z'F(d)z >= q (sigma + t tau) z'z is shown by factors of the symmetric parts of A_ff and B_ff
    ([bounded_rows] of Bounded.v), so the last term is at most |l_i| |r_j| / (q (sigma + lo tau))
    for t >= lo.
 
@@ -39,8 +39,8 @@ Record anchor := Anchor {
   anchor_left : seq matrix;
   anchor_scale : seq Z }.
 
-(* Z, bounds of the norms of l and r, and of the row sums of A_1,ff; how far Z of a member may be
-   from it. *)
+(* Z, bounds of the norms of l and r, and of the sums of rows and columns of A_1,ff; how far Z of a
+   member may be from it. *)
 Record anchor_family := AnchorFamily {
   series_z : seq matrix;
   left_norms : seq polynomial;
@@ -91,8 +91,8 @@ Definition ss_block (row : nat -> sparse_row) : matrix :=
   let columns := slip Q in
   [seq (let entries := row i in [seq lookup entries j | j <- columns]) | i <- columns].
 
-(* u Y - F X, for F = f_0 + d f_1; the sign is -1, and 1 where bounds of absolute values are put
-   together. *)
+(* u Y - F X, for the rows F = f_0 + d f_1; the sign is -1, and 1 where bounds of absolute values
+   are put together. *)
 Definition residual_series sign (f0 f1 : seq sparse_row) (Y X : seq matrix) : seq matrix :=
   add_series (scale_series (anchor_unit a) Y)
     (scale_series sign (add_series (product_series f0 X) ([::] :: product_series f1 X))).
@@ -101,8 +101,8 @@ Definition residual_right sign :=
   residual_series sign (ff_block row_0) (ff_block row_1) [:: fs_block row_0; fs_block row_1]
     (anchor_right a).
 Definition residual_left sign :=
-  residual_series sign (ff_block row_0) (ff_block row_1) [:: sf_block row_0; sf_block row_1]
-    (anchor_left a).
+  residual_series sign (transposed (ff_block row_0)) (transposed (ff_block row_1))
+    [:: sf_block row_0; sf_block row_1] (anchor_left a).
 
 (* Z for a given r. *)
 Definition center_series sign (r : seq matrix) : seq matrix :=
@@ -115,10 +115,10 @@ Definition center_series sign (r : seq matrix) : seq matrix :=
 
 Definition row_sum (row : sparse_row) := foldr (fun e s => Z.abs e.2 + s) 0 row.
 
-Definition expand_from (f1 : seq sparse_row) (l r : seq matrix) : anchor_family :=
+Definition expand_from (sums : seq sparse_row) (l r : seq matrix) : anchor_family :=
   AnchorFamily (center_series (-1) r) [seq norms l i | i <- iota 0 ns]
     [seq norms r j | j <- iota 0 ns]
-    (foldr Z.max 0 [seq row_sum row | row <- f1]) [::].
+    (foldr Z.max 0 [seq row_sum row | row <- sums]) [::].
 
 Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
 
@@ -126,11 +126,13 @@ Definition small (L : seq matrix) := all (fun M => size M <= nf)%N L.
 Definition expand : option anchor_family :=
   let f0 := ff_block row_0 in
   let f1 := ff_block row_1 in
-  let l := residual_series (-1) f0 f1 [:: sf_block row_0; sf_block row_1] (anchor_left a) in
+  let turned := transposed f1 in
+  let l := residual_series (-1) (transposed f0) turned [:: sf_block row_0; sf_block row_1]
+    (anchor_left a) in
   let r := residual_series (-1) f0 f1 [:: fs_block row_0; fs_block row_1] (anchor_right a) in
   if [&& 0 <? q, 0 <? anchor_unit a, all (fun i => 0 <? nth 0 (anchor_scale a) i) (iota 0 ns),
          small (anchor_left a), small l & small r]
-  then Some (expand_from f1 l r) else None.
+  then Some (expand_from (f1 ++ turned) l r) else None.
 
 End Expansion.
 
@@ -147,7 +149,7 @@ Definition absolute (L : seq matrix) : seq matrix :=
 Definition absolute_anchor := Anchor (anchor_center a) (anchor_unit a) (absolute (anchor_right a))
   (absolute (anchor_left a)) (anchor_scale a).
 
-(* With D = F_m - F and so on, bounds of u D_fs - D_ff W, of u D_sf' - D_ff V, and of how far Z of
+(* With D = F_m - F and so on, bounds of u D_fs - D_ff W, of u D_sf' - D_ff' V, and of how far Z of
    a member may be from that of the pencil. *)
 Definition widened_family (fam : anchor_family) : option anchor_family :=
   let l := residual_left radii_pencil absolute_anchor 1 in
@@ -167,9 +169,11 @@ Definition expand_member Q (radii : option (seq sparse_row * seq sparse_row)) a 
     if radii is Some rad then widened_family Q a rad fam else Some fam
   else None.
 
-(* The rows with the sums of those of the radii taken from the diagonal. *)
+(* The rows with the sums of the radii, of a row or a column, taken from the diagonal. *)
 Definition lowered (rows radii : seq sparse_row) : seq sparse_row :=
-  [seq (i, - row_sum (nth [::] radii i)) :: nth [::] rows i | i <- iota 0 (size rows)].
+  let turned := transposed radii in
+  [seq (i, - Z.max (row_sum (nth [::] radii i)) (row_sum (nth [::] turned i))) :: nth [::] rows i
+  | i <- iota 0 (size rows)].
 
 Definition lowered_block Q (row : pencil -> nat -> sparse_row)
     (radii : option (seq sparse_row * seq sparse_row)) :=
@@ -359,10 +363,7 @@ Qed.
 Lemma in_free i : i \in fi -> (i < nf)%N.
 Proof. by rewrite mem_iota. Qed.
 
-(* The blocks of the free variables: symmetric, and bounded from below. *)
-Definition symmetric_free (M : nat -> nat -> R) :=
-  forall i k, i \in free Q -> k \in free Q -> M i k = M k i.
-
+(* The blocks of the free variables are bounded from below. *)
 Definition free_form (M : nat -> nat -> R) (z : nat -> R) :=
   \sum_(i <- fi) \sum_(k <- fi) z i * M (free_at i) (free_at k) * z k.
 
@@ -370,15 +371,7 @@ Definition below (low : form_bound) M := [/\ 0 < toR (bound_times low) :> R,
   0 <= toR (bound_at low) :> R & forall z, toR (bound_at low) * (\sum_(k <- fi) z k ^+ 2) <=
     toR (bound_times low) * free_form M z].
 
-Definition free_bounded low_a low_b :=
-  [/\ symmetric_free A, symmetric_free B, below low_a A & below low_b B].
-
-Lemma F_symmetric d : symmetric_free A -> symmetric_free B -> symmetric_on nf (F_at d).
-Proof.
-move=> sA sB i k /in_free Hi /in_free Hk.
-rewrite /F_at /shifted_entry (sA (free_at i) (free_at k)) ?(sB (free_at i) (free_at k)) //;
-  exact: mem_nth.
-Qed.
+Definition free_bounded low_a low_b := below low_a A /\ below low_b B.
 
 (* q (sigma + lo tau) *)
 Lemma F_below low_a low_b d t lo : free_bounded low_a low_b -> 0 < toR q :> R ->
@@ -386,7 +379,7 @@ Lemma F_below low_a low_b d t lo : free_bounded low_a low_b -> 0 < toR q :> R ->
   bounded_below nf (F_at d) (toR q * (toR (bound_at low_a) / toR (bound_times low_a) +
                                       lo * (toR (bound_at low_b) / toR (bound_times low_b)))).
 Proof.
-move=> [_ _ [ca0 da0 below_a] [cb0 db0 below_b]] q0 td lo0 lo_t z.
+move=> [[ca0 da0 below_a] [cb0 db0 below_b]] q0 td lo0 lo_t z.
 move: (below_a z) (below_b z) => {}below_a {}below_b.
 set S := \sum_(k <- fi) _ in below_a below_b *; have S0 : 0 <= S by apply: squares_ge0.
 have -> : \sum_(i <- fi) \sum_(k <- fi) z i * F_at d i k * z k =
@@ -488,16 +481,36 @@ Lemma lookup_ff (row : nat -> sparse_row) i k : (i < nf)%N -> (k < nf)%N ->
   lookup (nth [::] (ff_block Q row) i) k = lookup (row (free_at i)) (free_at k).
 Proof. by move=> Hi Hk; rewrite (nth_map 0%N) // lookup_restrict. Qed.
 
-Lemma value_residual sign Y X d k j : (k < nf)%N ->
-  value (residual_series a sign (ff_block Q (row_0 Q a)) (ff_block Q (row_1 Q a)) Y X) d k j =
-  toR (anchor_unit a) * value Y d k j +
-  toR sign * \sum_(m <- fi) own d (free_at k) (free_at m) * value X d m j.
+Lemma value_residual sign f0 f1 Y X (d : R) k j :
+  (forall i, all (fun e => e.1 < nf)%N (nth [::] f0 i)) ->
+  (forall i, all (fun e => e.1 < nf)%N (nth [::] f1 i)) ->
+  value (residual_series a sign f0 f1 Y X) d k j = toR (anchor_unit a) * value Y d k j +
+  toR sign * \sum_(m <- fi) (toR (lookup (nth [::] f0 k) m) + d * toR (lookup (nth [::] f1 k) m)) *
+    value X d m j.
 Proof.
-move=> Hk; rewrite /residual_series value_add !value_scale value_add value_shift.
-rewrite !(value_product (n := nf)) ?ff_range //; congr (_ + _ * _).
-rewrite mulr_sumr -big_split; apply: sum_eq => m /=.
-rewrite mem_iota add0n => /andP[_ Hm]; rewrite !lookup_ff // -own_entry.
-by rewrite mulrDl mulrA.
+move=> range0 range1; rewrite /residual_series value_add !value_scale value_add value_shift.
+rewrite !(value_product (n := nf)) //; congr (_ + _ * _).
+by rewrite mulr_sumr -big_split; apply: sum_eq => m _ /=; rewrite mulrDl mulrA.
+Qed.
+
+Lemma value_right sign d k j : (k < nf)%N -> (j < ns)%N ->
+  value (residual_right Q a sign) d k j = toR (anchor_unit a) * own d (free_at k) (slip_at j) +
+  toR sign * \sum_(m <- fi) own d (free_at k) (free_at m) * value (anchor_right a) d m j.
+Proof.
+move=> Hk Hj; rewrite value_residual; try exact: ff_range.
+rewrite value_fs //; congr (_ + _ * _); apply: sum_eq => m; rewrite mem_iota => /= Hm.
+by rewrite !lookup_ff // own_entry.
+Qed.
+
+Lemma value_left sign d k i : (k < nf)%N -> (i < ns)%N ->
+  value (residual_left Q a sign) d k i = toR (anchor_unit a) * own d (slip_at i) (free_at k) +
+  toR sign * \sum_(m <- fi) own d (free_at m) (free_at k) * value (anchor_left a) d m i.
+Proof.
+have range row m : all (fun e => e.1 < nf)%N (nth [::] (transposed (ff_block Q row)) m).
+  by rewrite -[nf](size_map (fun i => restrict (places (free Q)) (row i))); apply: transposed_range.
+move=> Hk Hi; rewrite value_residual; try exact: range.
+rewrite value_sf //; congr (_ + _ * _); apply: sum_eq => m; rewrite mem_iota => /= Hm.
+by rewrite !lookup_transposed !lookup_ff // own_entry.
 Qed.
 
 Lemma value_center sign r d i j : small Q (anchor_left a) -> (i < ns)%N -> (j < ns)%N ->
@@ -524,7 +537,8 @@ Lemma expand_parts :
   [/\ 0 < toR q :> R, 0 < toR (anchor_unit a) :> R,
       forall i, (i < ns)%N -> 0 < toR (nth 0%Z (anchor_scale a) i) :> R &
       [/\ small Q (anchor_left a), small Q l_series, small Q r_series &
-          fam = expand_from Q a (ff_block Q (row_1 Q a)) l_series r_series]].
+          fam = expand_from Q a (ff_block Q (row_1 Q a) ++ transposed (ff_block Q (row_1 Q a)))
+                  l_series r_series]].
 Proof.
 move: expanded; rewrite /expand; case: ifP => // /and5P[q0 u0 /allP s0 sa /andP[sl sr]] [<-].
 split; rewrite ?toR_gt0 // => i Hi; rewrite toR_gt0; apply: s0; rewrite mem_iota; exact: Hi.
@@ -540,10 +554,6 @@ Hypothesis bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b.
 
 Lemma own_bounded : free_bounded Q (a_entry R Q) (b_entry R Q) low_a low_b.
 Proof.
-have sym low row : bounded_rows nf (ff_block Q row) low ->
-    symmetric_free Q (fun i k => toR (lookup (row i) k) : R).
-  move=> bounded i k /(nthP 0%N)[i' Hi <-] /(nthP 0%N)[k' Hk <-].
-  by rewrite -!lookup_ff // (bounded_lookup_sym bounded Hi Hk).
 have low row low : bounded_rows nf (ff_block Q row) low ->
     below Q low (fun i k => toR (lookup (row i) k) : R).
   move=> bounded; split; [exact: bound_times_gt0 bounded | exact: bound_at_ge0 bounded |].
@@ -551,16 +561,7 @@ have low row low : bounded_rows nf (ff_block Q row) low ->
   rewrite le_eqVlt; apply/orP; left; apply/eqP; congr (_ * _).
   apply: sum_eq => i /(in_free (Q := Q)) Hi; apply: sum_eq => k /(in_free (Q := Q)) Hk.
   by rewrite lookup_ff.
-by split; [exact: sym bounded_a | exact: sym bounded_b | exact: low bounded_a |
-           exact: low bounded_b].
-Qed.
-
-Lemma F1_symmetric :
-  symmetric_on nf (fun i k => toR (lookup (row_1 Q a (free_at i)) (free_at k)) : R).
-Proof.
-move=> i k /(in_free (Q := Q)) Hi /(in_free (Q := Q)) Hk.
-rewrite /row_1 !lookup_times !toRM -!lookup_ff //.
-by rewrite (bounded_lookup_sym bounded_b Hi Hk).
+by split; [exact: low bounded_a | exact: low bounded_b].
 Qed.
 
 Lemma drift_ge0 : 0 <= toR (drift fam) :> R.
@@ -582,20 +583,31 @@ rewrite big_split /= ler_add ?IH // (bigD1_seq e.1) ?iota_uniq ?mem_iota //= eqx
 by rewrite big1 ?addr0 // => k /negbTE; rewrite eq_sym => ->.
 Qed.
 
-Lemma drift_bound i : i \in fi ->
-  \sum_(k <- fi) `|toR (lookup (row_1 Q a (free_at i)) (free_at k))| <= toR (drift fam) :> R.
+Lemma drift_row row : row \in ff_block Q (row_1 Q a) ++ transposed (ff_block Q (row_1 Q a)) ->
+  all (fun e => e.1 < nf)%N row ->
+  \sum_(k <- fi) `|toR (lookup row k)| <= toR (drift fam) :> R.
 Proof.
-move=> /(in_free (Q := Q)) Hi; have [_ _ _ [_ _ _ ->]] := expand_parts; rewrite /expand_from /=.
-have -> : \sum_(k <- fi) `|toR (lookup (row_1 Q a (free_at i)) (free_at k))| =
-          \sum_(k <- fi) `|toR (lookup (nth [::] (ff_block Q (row_1 Q a)) i) k)| :> R.
-  by apply: sum_eq => k /(in_free (Q := Q)) Hk; rewrite lookup_ff.
-apply: le_trans (row_sum_bound (ff_range _ _)) _; rewrite toR_le.
-have : nth [::] (ff_block Q (row_1 Q a)) i \in ff_block Q (row_1 Q a).
-  by rewrite mem_nth // size_map.
-move: (ff_block Q (row_1 Q a)) => L; move: (nth _ L i) => x.
-elim: L => //= row rows IH; rewrite inE.
+have [_ _ _ [_ _ _ ->]] := expand_parts; rewrite /expand_from /= => + range.
+move=> in_rows; apply: le_trans (row_sum_bound range) _; move: in_rows; rewrite toR_le.
+move: (_ ++ _) => L; elim: L {range} => //= row' rows IH; rewrite inE.
 case/orP=> [/eqP->|/IH]; move: (foldr _ _ _) (row_sum _) => m y; first by clear; lia.
-by move: (row_sum row) => y'; clear; lia.
+by move: (row_sum row') => y'; clear; lia.
+Qed.
+
+Lemma drift_bound i : i \in fi ->
+  \sum_(k <- fi) `|toR (lookup (row_1 Q a (free_at i)) (free_at k))| <= toR (drift fam) :> R /\
+  \sum_(k <- fi) `|toR (lookup (row_1 Q a (free_at k)) (free_at i))| <= toR (drift fam) :> R.
+Proof.
+move=> /(in_free (Q := Q)) Hi; have size_f : size (ff_block Q (row_1 Q a)) = nf by rewrite size_map.
+split.
+  rewrite (sum_eq (g := fun k => `|toR (lookup (nth [::] (ff_block Q (row_1 Q a)) i) k)|)).
+    by apply: drift_row; rewrite ?ff_range // mem_cat mem_nth ?size_f.
+  by move=> k /(in_free (Q := Q)) Hk; rewrite lookup_ff.
+rewrite (sum_eq (g := fun k =>
+    `|toR (lookup (nth [::] (transposed (ff_block Q (row_1 Q a))) i) k)|)).
+  apply: drift_row; last by rewrite -size_f transposed_range.
+  by rewrite mem_cat mem_nth ?orbT // (leq_trans _ (size_columns_ge _ _ _)) ?size_f.
+by move=> k /(in_free (Q := Q)) Hk; rewrite lookup_transposed lookup_ff.
 Qed.
 
 (* The residuals and Z of the pencil itself. *)
@@ -607,13 +619,13 @@ Proof. by rewrite -[(-1)%Z]/(Z.opp 1) toRN toR1. Qed.
 
 Lemma own_right d j k : (j < ns)%N -> k \in fi -> r_at Q A B a d j k = value r_series d k j.
 Proof.
-move=> Hj /(in_free (Q := Q)) Hk; rewrite /residual_right value_residual // value_fs //.
+move=> Hj /(in_free (Q := Q)) Hk; rewrite value_right //.
 by rewrite minus_one mulN1r.
 Qed.
 
 Lemma own_left d i k : (i < ns)%N -> k \in fi -> l_at Q A B a d i k = value l_series d k i.
 Proof.
-move=> Hi /(in_free (Q := Q)) Hk; rewrite /residual_left value_residual // value_sf //.
+move=> Hi /(in_free (Q := Q)) Hk; rewrite value_left //.
 by rewrite minus_one mulN1r.
 Qed.
 
@@ -681,24 +693,26 @@ Proof. by move=> Hj; apply/slip_indices/mem_nth. Qed.
 (* A sum of radii, taken from the diagonal. *)
 Lemma lookup_lowered rows rad i k : (i < size rows)%N ->
   lookup (nth [::] (lowered rows rad) i) k =
-  ((if i == k then - row_sum (nth [::] rad i) else 0) + lookup (nth [::] rows i) k)%Z.
+  ((if i == k then - Z.max (row_sum (nth [::] rad i)) (row_sum (nth [::] (transposed rad) i))
+    else 0) + lookup (nth [::] rows i) k)%Z.
 Proof. by move=> Hi; rewrite (nth_map 0%N) ?size_iota // nth_iota //= add0n; case: eqP. Qed.
 
 Lemma lowered_below low (row : pencil -> nat -> sparse_row) (M : nat -> nat -> R) :
   bounded_rows nf (lowered (ff_block Q (row Q)) (ff_block Q (row Rd))) low ->
-  symmetric_free Q M ->
   (forall i j, i \in indices -> j \in indices ->
      `|M i j - toR (lookup (row Q i) j)| <= toR (lookup (row Rd i) j)) ->
   below Q low M.
 Proof.
-move=> bounded symM close; split.
+move=> bounded close; split.
 - exact: bound_times_gt0 bounded.
 - exact: bound_at_ge0 bounded.
 have c0 := bound_times_gt0 R bounded.
 move=> z; apply: le_trans (bounded_rows_sound bounded z) _; rewrite ler_pmul2l //.
 pose S i k : R := toR (lookup (row Q (free_at i)) (free_at k)).
 pose m i k := M (free_at i) (free_at k) - S i k.
-pose rho i : R := toR (row_sum (nth [::] (ff_block Q (row Rd)) i)).
+pose rows_r := ff_block Q (row Rd); have size_r : size rows_r = nf by rewrite size_map.
+pose rho i : R :=
+  toR (Z.max (row_sum (nth [::] rows_r i)) (row_sum (nth [::] (transposed rows_r) i))).
 have rowE i : i \in fi -> \sum_(k <- fi) z i *
     toR (lookup (nth [::] (lowered (ff_block Q (row Q)) (ff_block Q (row Rd))) i) k) * z k =
     \sum_(k <- fi) z i * S i k * z k - rho i * z i ^+ 2.
@@ -709,20 +723,21 @@ have rowE i : i \in fi -> \sum_(k <- fi) z i *
   rewrite big_seq_cond [RHS]big_seq_cond; apply: eq_bigr => k /andP[/(in_free (Q := Q)) lt_k].
   rewrite eq_sym => /negbTE ik; rewrite !lookup_lowered ?size_map // ik toRD toR0 add0r.
   by rewrite lookup_ff.
-have m_sym i k : i \in fi -> k \in fi -> m k i = m i k.
-  move=> /(in_free (Q := Q)) Hi /(in_free (Q := Q)) Hk.
-  rewrite /m (symM (free_at k) (free_at i)) ?mem_nth //; congr (_ - _).
-  have := bounded_lookup_sym bounded Hk Hi; rewrite !lookup_lowered ?size_map // eq_sym.
-  by case: eqP => [->//|_]; rewrite !Z.add_0_l !lookup_ff // /S => ->.
-have m_le i k : i \in fi -> k \in fi ->
-    `|m i k| <= `|toR (lookup (nth [::] (ff_block Rd (row Rd)) i) k) : R|.
+have m_le i k : i \in fi -> k \in fi -> `|m i k| <= `|toR (lookup (nth [::] rows_r i) k) : R|.
   move=> Hi Hk; rewrite lookup_ff ?(in_free (Q := Q)) //.
   by apply: le_trans (ler_norm _); apply: close; apply: free_in.
 have sums i : i \in fi -> \sum_(k <- fi) (`|m i k| + `|m k i|) <= rho i *+ 2.
-  move=> Hi; apply: (@le_trans _ _ ((\sum_(k <- fi) `|m i k|) *+ 2)).
-    by rewrite -sumrMnl; apply: sum_le => k Hk; rewrite (m_sym i k) // mulr2n.
-  rewrite ler_muln2r /=; apply: le_trans (row_sum_bound R (ff_range Rd (row Rd) i)).
-  by apply: sum_le => k Hk; apply: m_le.
+  move=> Hi; rewrite big_split mulr2n; apply: ler_add.
+    apply: (@le_trans _ _ (toR (row_sum (nth [::] rows_r i)))).
+      apply: le_trans (row_sum_bound R (ff_range Rd (row Rd) i)).
+      by apply: sum_le => k Hk; apply: m_le.
+    by rewrite toR_le; move: (row_sum _) (row_sum _) => *; clear; lia.
+  have range : all (fun e => e.1 < nf)%N (nth [::] (transposed rows_r) i).
+    by rewrite -size_r transposed_range.
+  apply: (@le_trans _ _ (toR (row_sum (nth [::] (transposed rows_r) i)))).
+    apply: le_trans (row_sum_bound R range).
+    by apply: sum_le => k Hk; rewrite lookup_transposed; apply: m_le.
+  by rewrite toR_le; move: (row_sum _) (row_sum _) => *; clear; lia.
 have form : `|\sum_(i <- fi) \sum_(k <- fi) z i * m i k * z k| <= \sum_(i <- fi) rho i * z i ^+ 2.
   suff : `|\sum_(i <- fi) \sum_(k <- fi) z i * m i k * z k| *+ 2 <=
       (\sum_(i <- fi) rho i * z i ^+ 2) *+ 2 by rewrite ler_muln2r.
@@ -789,7 +804,7 @@ Lemma right_near j : (j < ns)%N -> forall k, k \in fi ->
   value (residual_right Rd a' 1) b k j.
 Proof.
 move=> Hj k Hk; have lt_k := in_free Hk; have Fk := free_in Hk; have Sj := slip_in Hj.
-rewrite (value_residual (Q := Rd) a' wf) // (value_fs (Q := Rd)) // toR1 mul1r.
+rewrite (value_right (Q := Rd) a' wf) // toR1 mul1r.
 have -> : r_at Q A B a d j k - r_at Q (a_entry R Q) (b_entry R Q) a d j k =
     u * (G_at Q A B a d k j - G_at Q (a_entry R Q) (b_entry R Q) a d k j) -
     \sum_(m <- fi) (F_at Q A B a d k m - F_at Q (a_entry R Q) (b_entry R Q) a d k m) *
@@ -807,10 +822,10 @@ Lemma left_near i : (i < ns)%N -> forall k, k \in fi ->
   value (residual_left Rd a' 1) b k i.
 Proof.
 move=> Hi k Hk; have lt_k := in_free Hk; have Fk := free_in Hk; have Si := slip_in Hi.
-rewrite (value_residual (Q := Rd) a' wf) // (value_sf (Q := Rd)) // toR1 mul1r.
+rewrite (value_left (Q := Rd) a' wf) // toR1 mul1r.
 have -> : l_at Q A B a d i k - l_at Q (a_entry R Q) (b_entry R Q) a d i k =
     u * (H_at Q A B a d i k - H_at Q (a_entry R Q) (b_entry R Q) a d i k) -
-    \sum_(m <- fi) (F_at Q A B a d k m - F_at Q (a_entry R Q) (b_entry R Q) a d k m) *
+    \sum_(m <- fi) (F_at Q A B a d m k - F_at Q (a_entry R Q) (b_entry R Q) a d m k) *
       left_at a d m i.
   rewrite /l_at /residual_l mulrBr; under [in RHS]eq_bigr do rewrite mulrBl.
   by rewrite sumrB !opprD !opprK addrACA.
@@ -853,14 +868,13 @@ Qed.
 End Bounds.
 
 Theorem member_ready fam low_a low_b lo hi : expand_member Q (Some radii) a = Some fam ->
-  symmetric_free Q A -> symmetric_free Q B ->
   bounded_rows nf (lowered_block Q row_a (Some radii)) low_a ->
   bounded_rows nf (lowered_block Q row_b (Some radii)) low_b ->
   proper_interval a low_a low_b lo hi -> prepared_member Q A B a fam low_a low_b lo hi.
 Proof.
-rewrite /expand_member; case ex: (expand Q a) => [own|//] wide symA symB ba bb proper.
+rewrite /expand_member; case ex: (expand Q a) => [own|//] wide ba bb proper.
 have [q0 u0 s0 [sa _ _ _]] := expand_parts R ex; split=> //.
-  by split=> //; [apply: lowered_below ba _ _ | apply: lowered_below bb _ _] => // i j Hi Hj;
+  by split; [apply: lowered_below ba _ | apply: lowered_below bb _] => i j Hi Hj;
      have [] := near Hi Hj.
 move=> d t b td t0 db i j Hi Hj; move: wide; rewrite /widened_family.
 case: ifP => // /andP[sl sr] [<-] /=; have [l_own r_own z_own] := own_bounds wf ex td t0 db Hi Hj.

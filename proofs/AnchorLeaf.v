@@ -136,12 +136,9 @@ Proof. by have [_ _ _ w0 _] := proper_parts; rewrite toRM mulr_gt0 // q_gt0. Qed
 
 Lemma bd_gt0 : 0 < toR bd :> R.
 Proof.
-have [_ l2 _ _ _] := proper_parts; have [_ _ [ca0 _ _] [cb0 _ _]] := bounded.
+have [_ l2 _ _ _] := proper_parts; have [[ca0 _ _] [cb0 _ _]] := bounded.
 by rewrite !toRM !mulr_gt0.
 Qed.
-
-Lemma free_symmetric d : symmetric_on nf (F_at Q A B a d).
-Proof. by have [? ? _ _] := bounded; apply: F_symmetric. Qed.
 
 (* t and d at u. *)
 Definition t_of (u : R) := (toR (lo.1 * hi.2)%Z + u * toR width) / toR (lo.2 * hi.2)%Z.
@@ -185,7 +182,7 @@ Qed.
 
 Lemma below_at_u : bounded_below nf (F_at Q A B a (d_of u)) s_low.
 Proof.
-have [l1 l2 _ _ _] := proper_parts; have [_ _ [ca _ _] [cb _ _]] := bounded.
+have [l1 l2 _ _ _] := proper_parts; have [[ca _ _] [cb _ _]] := bounded.
 have lo0 : 0 <= toR lo.1 / toR lo.2 :> R by rewrite divr_ge0 // ltW.
 have := F_below bounded q_gt0 (t_ofE u) lo0 lo_le_t.
 congr (bounded_below _ _ _); rewrite /s_low /lower_n /lower_d !toRM !toRD !toRM.
@@ -328,7 +325,7 @@ End Parts.
 Lemma rawE u i j : 0 <= u ->
   raw u i j = 4%:R * (toR power_z * (z_at Q A B a (d_of u) i j - remainder_at u i j)).
 Proof.
-move=> u0; rewrite /raw (condensed_residual s_low_gt0 (free_symmetric (d_of u)) (below_at_u u0)
+move=> u0; rewrite /raw (condensed_residual s_low_gt0 (below_at_u u0)
   _ _ _ (toR (anchor_unit a)) (right_at a (d_of u)) (left_at a (d_of u))).
 by rewrite mulrA.
 Qed.
@@ -580,7 +577,6 @@ Notation B := (b_entry R Q).
 
 Let wf : wellformed Q := let: And5 w _ _ _ _ := ready in w.
 Let expanded : expand Q a = Some fam := let: And5 _ e _ _ _ := ready in e.
-Let bounded_b : bounded_rows nf (ff_block Q (row_b Q)) low_b := let: And5 _ _ _ b _ := ready in b.
 Let own : prepared_member Q A B a fam low_a low_b lo hi := prepared_ready R ready.
 
 Notation p := (anchor_center a).1.
@@ -684,8 +680,8 @@ have diff m k : m \in fi -> k \in fi -> F_at Q A B a (d_of u) m k - F_at Q A B a
   move=> _ _; rewrite /F_at /shifted_entry /row_1 lookup_times toRM -/(B _ _).
   by move: (toR _ * A _ _) (toR _ * B _ _) => *; ring.
 have [x xE x_le] := remainder_difference s_low_gt0 (below_at_u u0) (below_at_u v0)
-  (free_symmetric own (d_of u')) (F1_symmetric R a wf bounded_b) diff
-  (fun m Hm => drift_bound R wf expanded Hm) (drift_ge0 R expanded)
+  diff (fun m Hm => (drift_bound R wf expanded Hm).1) (drift_ge0 R expanded)
+  (fun m Hm => (drift_bound R wf expanded Hm).2)
   (fun k => slopeE (poly_of l_series k i) (d_of u) (d_of u'))
   (fun k => slopeE (poly_of r_series k j) (d_of u) (d_of u'))
   (series_norm i small_l (d_bounded v0 v1)) (series_norm j small_r (d_bounded u0 u1))

@@ -1,15 +1,15 @@
-(* Symmetric sparse matrices bounded from below.
+(* Sparse matrices bounded from below.
 
-   A matrix S is given by sparse rows.  Numbers c > 0, d >= 0, m >= 0 and a factor L with rows that
-   begin at their first entry are witness of S >= (d/c) I: the matrix c S - d I is covered by
-   m L L' (Covered.v).
+   A matrix S is given by sparse rows; it need not be symmetric.  Numbers c > 0, d >= 0, m >= 0 and
+   a factor L with rows that begin at their first entry are witness of z'Sz >= (d/c) z'z: the matrix
+   c (S + S') - 2 d I is covered by 2 m L L' (Covered.v).
 
-   The checker looks at the entries that there are, to see that S is symmetric.  It writes out each
-   row of c S - d I and walks along it and the rows of L together; no numbers of columns are
+   The checker makes the rows of S' once ([transposed]).  It writes out each row of
+   c (S + S') - 2 d I and walks along it and the rows of L together; no numbers of columns are
    compared (Places.v says why).
 
-   Theorem [bounded_rows_sound]: c z'S z >= d z'z for every z.  [bounded_lookup_sym]: S is
-   symmetric.
+   Theorem [bounded_rows_sound]: c z'S z >= d z'z for every z.  [lookup_transposed]: the entries of
+   S'.  [symmetric_lookup]: rows that pass [symmetric_rows_sparse] are those of a symmetric matrix.
 
    Page: spec/certificates.md, 5.14 (sigma).  Rust: crates/check/src/cover/psd.rs. *)
 
@@ -32,7 +32,7 @@ Qed.
 Lemma lookup_cat row row' j : lookup (row ++ row') j = (lookup row j + lookup row' j)%Z.
 Proof. by elim: row => //= e row IH; case: eqP => _; rewrite IH // Z.add_assoc. Qed.
 
-(* c, d, m and L: c S - d I is covered by m L L'. *)
+(* c, d, m and L: c (S + S') - 2 d I is covered by 2 m L L'. *)
 Record form_bound := FormBound {
   bound_times : Z;
   bound_at : Z;
@@ -42,6 +42,19 @@ Record form_bound := FormBound {
 Section Checker.
 
 Local Open Scope Z_scope.
+
+(* The entries of the rows, from number i on, at their columns; for n columns. *)
+Fixpoint columns_from n i (rows : seq sparse_row) : seq sparse_row :=
+  if rows is row :: rows' then
+    foldr (fun e table => set_nth [::] table e.1 ((i, e.2) :: nth [::] table e.1))
+      (columns_from n i.+1 rows') row
+  else nseq n [::].
+
+(* The rows of the transposed matrix, which is square. *)
+Definition transposed (rows : seq sparse_row) := columns_from (size rows) 0 rows.
+
+Definition doubled_rows (rows : seq sparse_row) :=
+  [seq r.1 ++ r.2 | r <- zip rows (transposed rows)].
 
 (* A row with its entries at all columns. *)
 Definition spread (row : sparse_row) : seq Z :=
@@ -69,9 +82,9 @@ Definition row_bounded c d m (factor : seq late_row) i (r : sparse_row * late_ro
 
 Definition bounded_rows n (rows : seq sparse_row) (b : form_bound) :=
   [&& 0 <? bound_times b, 0 <=? bound_at b, 0 <=? gram_times b, size rows == n,
-      size (gram_rows b) == n, symmetric_rows_sparse rows &
-      all_from (row_bounded (bound_times b) (bound_at b) (gram_times b) (gram_rows b)) 0
-        (zip rows (gram_rows b))].
+      size (gram_rows b) == n &
+      all_from (row_bounded (bound_times b) (2 * bound_at b) (2 * gram_times b) (gram_rows b)) 0
+        (zip (doubled_rows rows) (gram_rows b))].
 
 End Checker.
 
@@ -115,6 +128,62 @@ have [/at_entry ji|out_j] := boolP (i \in [seq e.1 | e <- nth [::] rows j]).
 by rewrite !lookup_none.
 Qed.
 
+Section Transposed.
+
+Variable n : nat.
+
+Lemma lookup_columns i rows j k : lookup (nth [::] (columns_from n i rows) j) k =
+  if (i <= k)%N then lookup (nth [::] rows (k - i)) j else 0%Z.
+Proof.
+elim: rows i => [|row rows IH] i /=.
+  by rewrite nth_nseq !if_same nth_nil if_same.
+have -> table : lookup (nth [::] (foldr (fun e t =>
+      set_nth [::] t e.1 ((i, e.2) :: nth [::] t e.1)) table row) j) k =
+    ((if i == k then lookup row j else 0) + lookup (nth [::] table j) k)%Z.
+  elim: row => [|e row IHr] /=; first by rewrite if_same.
+  rewrite nth_set_nth /=; case: (eqVneq j e.1) => [je|ne]; last by rewrite IHr.
+  by rewrite /= -je IHr; case: eqP => _; rewrite ?Z.add_assoc.
+rewrite IH; case: (ltngtP i k) => [lt|lt|->]; last by rewrite subnn Z.add_0_r.
+  by rewrite -(subnSK lt) /=.
+by [].
+Qed.
+
+Lemma columns_range i rows j :
+  all (fun e => e.1 < i + size rows)%N (nth [::] (columns_from n i rows) j).
+Proof.
+elim: rows i => [|row rows IH] i /=; first by rewrite nth_nseq if_same.
+elim: row => [|e row IHr] /=; first by rewrite addnS -addSn IH.
+rewrite nth_set_nth /=; case: eqP => [je|_] //=.
+by rewrite -je IHr andbT -[X in (X < _)%N]addn0 ltn_add2l.
+Qed.
+
+Lemma size_columns i rows : all (all (fun e => e.1 < n)%N) rows ->
+  size (columns_from n i rows) = n.
+Proof.
+elim: rows i => [|row rows IH] i /=; first by rewrite size_nseq.
+case/andP => + /IH; elim: row => [_ ->//|e row IHr] /= /andP[lt_e range] size_n.
+by rewrite size_set_nth IHr //; apply/maxn_idPr.
+Qed.
+
+Lemma size_columns_ge i rows : (n <= size (columns_from n i rows))%N.
+Proof.
+elim: rows i => [|row rows IH] i /=; first by rewrite size_nseq.
+by elim: row => //= e row IHr; rewrite size_set_nth leq_max IHr orbT.
+Qed.
+
+End Transposed.
+
+Lemma lookup_transposed rows j k :
+  lookup (nth [::] (transposed rows) j) k = lookup (nth [::] rows k) j.
+Proof. by rewrite lookup_columns subn0. Qed.
+
+Lemma transposed_range rows j : all (fun e => e.1 < size rows)%N (nth [::] (transposed rows) j).
+Proof. exact: columns_range. Qed.
+
+Lemma size_transposed rows : all (all (fun e => e.1 < size rows)%N) rows ->
+  size (transposed rows) = size rows.
+Proof. exact: size_columns. Qed.
+
 Section Sound.
 
 Variables (R : realFieldType) (n : nat) (rows : seq sparse_row) (b : form_bound).
@@ -131,30 +200,34 @@ Proof. by case/and5P: checked => _ ? *; rewrite toR_ge0. Qed.
 Lemma size_bounded : size rows = n.
 Proof. by case/and5P: checked => _ _ _ /eqP. Qed.
 
-Lemma bounded_lookup_sym i k : (i < n)%N -> (k < n)%N ->
-  lookup (nth [::] rows i) k = lookup (nth [::] rows k) i.
+Lemma size_doubled : size (doubled_rows rows) = n.
+Proof. by rewrite size_map size_zip (minn_idPl (size_columns_ge _ _ _)) size_bounded. Qed.
+
+Lemma lookup_doubled i k : (i < n)%N -> lookup (nth [::] (doubled_rows rows) i) k =
+  (lookup (nth [::] rows i) k + lookup (nth [::] rows k) i)%Z.
 Proof.
-by case/and5P: checked => _ _ _ /eqP<- /and3P[_ sym _]; apply: symmetric_lookup.
+rewrite -size_doubled size_map => lt_i; rewrite (nth_map ([::], [::])) //.
+by rewrite nth_zip_cond lt_i lookup_cat lookup_transposed.
 Qed.
 
 Definition shifted_entry (r s : nat * sparse_row) : Z :=
-  (bound_times b * lookup r.2 s.1 - (if r.1 == s.1 then bound_at b else 0))%Z.
+  (bound_times b * lookup r.2 s.1 - (if r.1 == s.1 then 2 * bound_at b else 0))%Z.
 
-Notation product := (fun r s => gram_times b * late_dot r s)%Z.
-Notation both := (zip (zip fi rows) (gram_rows b)).
+Notation product := (fun r s => 2 * gram_times b * late_dot r s)%Z.
+Notation both := (zip (zip fi (doubled_rows rows)) (gram_rows b)).
 Notation none := ((0%N, [::] : sparse_row), (0%N, [::] : seq Z)).
 
 Lemma size_both : size both = n.
 Proof.
-case/and5P: checked => _ _ _ /eqP size_n /and3P[/eqP size_g _ _].
-by rewrite !size_zip size_iota size_n size_g !minnn.
+case/and5P: checked => _ _ _ _ /andP[/eqP size_g _].
+by rewrite !size_zip size_iota size_doubled size_g !minnn.
 Qed.
 
 Lemma nth_both i : (i < n)%N ->
-  nth none both i = ((i, nth [::] rows i), nth (0%N, [::]) (gram_rows b) i).
+  nth none both i = ((i, nth [::] (doubled_rows rows) i), nth (0%N, [::]) (gram_rows b) i).
 Proof.
-case/and5P: checked => _ _ _ /eqP size_n /and3P[/eqP size_g _ _] lt_i.
-by rewrite !nth_zip ?size_zip ?size_iota ?size_n ?size_g ?minnn // nth_iota.
+case/and5P: checked => _ _ _ _ /andP[/eqP size_g _] lt_i.
+by rewrite !nth_zip ?size_zip ?size_iota ?size_doubled ?size_g ?minnn // nth_iota.
 Qed.
 
 Lemma toR_distance m row a factor :
@@ -170,8 +243,8 @@ Lemma rows_covered : covered shifted_entry product false both.
 Proof.
 have sb := size_both; rewrite /covered; apply: (all_from_intro (d := none)) => i.
 rewrite sb add0n => lt_i.
-case/and5P: checked => _ _ _ /eqP size_n /and3P[/eqP size_g _ bounds].
-rewrite nth_both //; set r := nth [::] rows i; set g := nth _ (gram_rows b) i.
+case/and5P: checked => _ _ _ _ /andP[/eqP size_g bounds]; have size_n := size_doubled.
+rewrite nth_both //; set r := nth [::] (doubled_rows rows) i; set g := nth _ (gram_rows b) i.
 have := all_from_nth ([::], (0%N, [::])) bounds (j := i).
 rewrite size_zip size_n size_g minnn add0n nth_zip ?size_n ?size_g // -/r -/g => /(_ lt_i).
 rewrite /row_bounded -[(r, g).1]/r -[(r, g).2]/g nth_spread lookup_shifted -!(toR_le R) toRM.
@@ -179,11 +252,12 @@ set rest := off_diagonal _ _ _ _ _; pose e := remainder shifted_entry product (i
 rewrite -[(_ - _ - _)%Z]/e.
 
 (* The sum over all j is that over the others and the term of the diagonal. *)
-have rowE j : nth 0%Z (spread (shifted_row (bound_times b) (bound_at b) i r)) j =
-    (bound_times b * lookup r j - (if i == j then bound_at b else 0))%Z.
+have rowE j : nth 0%Z (spread (shifted_row (bound_times b) (2 * bound_at b) i r)) j =
+    (bound_times b * lookup r j - (if i == j then 2 * bound_at b else 0))%Z.
   by rewrite nth_spread lookup_shifted.
-have -> : toR (distance (gram_times b) (spread (shifted_row (bound_times b) (bound_at b) i r)) g
-                 (gram_rows b)) = toR rest + `|toR e| :> R.
+have -> : toR (distance (2 * gram_times b)
+                 (spread (shifted_row (bound_times b) (2 * bound_at b) i r)) g (gram_rows b)) =
+          toR rest + `|toR e| :> R.
   rewrite toR_distance size_g /rest /off_diagonal (toR_sum_from R none) sb.
   move: (spread _) rowE => row rowE.
   have in_i : i \in fi by rewrite mem_iota.
@@ -200,30 +274,37 @@ Theorem bounded_rows_sound (z : nat -> R) :
   toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2) <=
   toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k).
 Proof.
-have m0 : (0 <=? gram_times b)%Z by case/and5P: checked.
+have m0 : (0 <=? 2 * gram_times b)%Z.
+  by case/and5P: checked => _ _ m0 _ _; move: m0; clear; lia.
 have sE i j : (i < n)%N -> (j < n)%N ->
     shifted_entry (nth none both i).1 (nth none both j).1 =
-    (bound_times b * lookup (nth [::] rows i) j - (if i == j then bound_at b else 0))%Z.
-  by move=> Hi Hj; rewrite !nth_both.
+    (bound_times b * (lookup (nth [::] rows i) j + lookup (nth [::] rows j) i) -
+     (if i == j then 2 * bound_at b else 0))%Z.
+  by move=> Hi Hj; rewrite !nth_both // -lookup_doubled.
 have sym : symmetric_rows none shifted_entry both.
-  move=> i j; rewrite size_both => Hi Hj; rewrite !sE // eq_sym.
-  by rewrite (bounded_lookup_sym Hi Hj).
+  by move=> i j; rewrite size_both => Hi Hj; rewrite !sE // eq_sym Z.add_comm.
 have [form0 _] := covered_form (strict := false) z (late_gram R none both m0) sym rows_covered.
 
 move: form0; rewrite /form size_both.
 have -> : \sum_(i <- fi) \sum_(j <- fi)
             z i * toR (shifted_entry (nth none both i).1 (nth none both j).1) * z j =
-          toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k) -
-          toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2).
+          (toR (bound_times b) * (\sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k) -
+           toR (bound_at b) * (\sum_(k <- fi) z k ^+ 2)) *+ 2.
   have -> : \sum_(k <- fi) z k ^+ 2 =
             \sum_(i <- fi) \sum_(j <- fi) (if i == j then z i * z j else 0).
     apply: sum_eq => i Hi; rewrite (bigD1_seq i) ?iota_uniq //= eqxx big1 ?addr0 //.
     by move=> j /negbTE; rewrite eq_sym => ->.
-  rewrite !mulr_sumr -sumrB; apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
-  rewrite !mulr_sumr -sumrB; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
-  rewrite sE // toRB toRM; move: (toR (lookup _ _)) => f.
-  by case: eqP => _; rewrite ?toR0; move: (toR _) (toR _) => *; ring.
-by rewrite subr_ge0.
+  have swap : \sum_(i <- fi) \sum_(k <- fi) z i * row_entry i k * z k =
+              \sum_(i <- fi) \sum_(k <- fi) z i * row_entry k i * z k.
+    rewrite exchange_big; apply: eq_bigr => i _; apply: eq_bigr => k _.
+    by rewrite mulrAC [z k * _]mulrC mulrAC.
+  rewrite mulr2n {1}swap !mulr_sumr -!sumrB -big_split.
+  apply: sum_eq => i; rewrite mem_iota add0n /= => Hi.
+  rewrite !mulr_sumr -!sumrB -big_split; apply: sum_eq => j; rewrite mem_iota add0n /= => Hj.
+  rewrite sE // toRB toRM toRD; move: (toR (lookup _ _)) (toR (lookup _ _)) => f g.
+  have two : toR (2 * bound_at b) = 2%:R * toR (bound_at b) :> R by rewrite toRM.
+  by case: eqP => _; rewrite ?two ?toR0; move: (toR _) (toR _) => *; ring.
+by rewrite pmulrn_lge0 // subr_ge0.
 Qed.
 
 End Sound.

@@ -3,19 +3,19 @@
    A pencil in blocks, f for the free variables and s for the complementarity variables, with no t
    in the free rows:
 
-       [ F    G   ]     F symmetric, regular        y_f = F x_f + G x_s = 0
+       [ F    G   ]     z'Fz > 0 for z != 0         y_f = F x_f + G x_s = 0
        [ H(t) D(t)]     H = H_a + t H_b,            y_s = H(t) x_f + D(t) x_s
                         D = D_a + t D_b
 
    With x_f = -F^-1 G x_s the complementarity rows are those of the condensed pencil
    T(t) = D(t) - H(t) F^-1 G.  F^-1 G is not known; an integer matrix W with F W about u G is, and
-   V_a, V_b with F V about u H'.  With r = u G - F W and l = u H' - F V,
+   V_a, V_b with F' V about u H'.  With r = u G - F W and l = u H' - F' V,
 
        u^2 (D - H F^-1 G) = u^2 D - u H W - V' r - l' F^-1 r.
 
-   The last term is the radius: if F >= (d/c) I, then |F^-1 r| <= (c/d) |r| in Euclidean norms, so
-   |l' F^-1 r| <= (c/d) |l|_1 |r|_1.  The lower bound d/c is shown by a factor that covers
-   c F - d I (Covered.v).
+   The last term is the radius: if z'Fz >= (d/c) z'z, then |F^-1 r| <= (c/d) |r| in Euclidean norms,
+   so |l' F^-1 r| <= (c/d) |l|_1 |r|_1.  The lower bound d/c is shown by a factor of the symmetric
+   part of F (Bounded.v).
 
    Theorem [condensation_encloses]: the integer matrices computed here enclose the exact condensed
    pencil.  Theorem [condensation_exact]: (x_f, x_s) solves the pencil in blocks if and only if x_s
@@ -40,7 +40,7 @@ Record blocks := Blocks {
   ss_b : matrix }.
 
 (* A positive factor for each row, u, W, V_a, V_b (lists over the free variables, one for each
-   complementarity variable), and c, d, m, L with c F - d I covered by m L L'. *)
+   complementarity variable), and c, d, m, L with c (F + F') - 2 d I covered by 2 m L L'. *)
 Record elimination := Elimination {
   row_scale : seq Z;
   unit_of : Z;
@@ -68,7 +68,7 @@ Definition divide_up x d := - ((- x) / d).
 
 Variables (D : blocks) (w : elimination).
 
-(* c F - d I is covered by m L L'. *)
+(* c (F + F') - 2 d I is covered by 2 m L L'. *)
 Definition eliminated_bound :=
   FormBound (bound_c w) (bound_d w) (factor_scale w) (stiffness_factor w).
 
@@ -76,11 +76,13 @@ Definition stiffness_positive :=
   [&& 0 <? bound_d w, all (fun row => all (fun entry => entry.1 < free_count D)%N row) (ff D) &
       bounded_rows (free_count D) (ff D) eliminated_bound].
 
-(* u G_j - F X_j for a column j *)
-Definition residual_column (G X : matrix) j :=
+(* u G_j - F X_j for a column j and the rows of F *)
+Definition residual_by (rows : seq sparse_row) (G X : matrix) j :=
   let g := row_of G j in
   let x := row_of X j in
-  map_from (fun i row => unit_of w * nth 0 g i - sparse_dot row x) 0 (ff D).
+  map_from (fun i row => unit_of w * nth 0 g i - sparse_dot row x) 0 rows.
+
+Definition residual_column := residual_by (ff D).
 
 Definition table (f : nat -> nat -> Z) : matrix :=
   [seq [seq f i j | j <- iota 0 (slip_count D)] | i <- iota 0 (slip_count D)].
@@ -94,11 +96,12 @@ Definition condensed_radius (norms_l norms_r : seq Z) : matrix := table (fun i j
   divide_up (nth 0 (row_scale w) i * (nth 0 norms_l i * nth 0 norms_r j * bound_c w)) (bound_d w)).
 
 Definition condensed : enclosed :=
-  let columns G X := [seq residual_column G X j | j <- iota 0 (slip_count D)] in
-  let r := columns (fs D) (right_w w) in
+  let columns rows G X := [seq residual_by rows G X j | j <- iota 0 (slip_count D)] in
+  let turned := transposed (ff D) in
+  let r := columns (ff D) (fs D) (right_w w) in
   let norms_r := [seq norm1 c | c <- r] in
-  let norms_a := [seq norm1 c | c <- columns (sf_a D) (left_va w)] in
-  let norms_b := [seq norm1 c | c <- columns (sf_b D) (left_vb w)] in
+  let norms_a := [seq norm1 c | c <- columns turned (sf_a D) (left_va w)] in
+  let norms_b := [seq norm1 c | c <- columns turned (sf_b D) (left_vb w)] in
   Enclosed (slip_count D)
     (condensed_center (ss_a D) (sf_a D) (left_va w) r)
     (condensed_center (ss_b D) (sf_b D) (left_vb w) r)
@@ -215,13 +218,6 @@ have [l|l] := ltnP i (size (ff D)); last by rewrite nth_default.
 by apply/columns/mem_nth.
 Qed.
 
-Lemma lookup_sym i k : (i < free_count D)%N -> (k < free_count D)%N ->
-  lookup (nth [::] (ff D) i) k = lookup (nth [::] (ff D) k) i.
-Proof. exact: bounded_lookup_sym rows_bounded i k. Qed.
-
-Lemma F_sym i k : i \in free_ix -> k \in free_ix -> F i k = F k i.
-Proof. by rewrite !mem_iota !add0n /= => Hi Hk; rewrite /F lookup_sym. Qed.
-
 (* c z'Fz >= d z'z *)
 Lemma F_bounded (z : nat -> R) :
   toR (bound_d w) * (\sum_(k <- free_ix) z k ^+ 2) <=
@@ -250,17 +246,35 @@ Definition condensed_entry (sf ss : matrix) i j : R :=
 Definition A_condensed := condensed_entry (sf_a D) (ss_a D).
 Definition B_condensed := condensed_entry (sf_b D) (ss_b D).
 
+Lemma residual_byE rows (G X : matrix) j i : size rows = free_count D ->
+  all (fun e => e.1 < free_count D)%N (nth [::] rows i) -> i \in free_ix ->
+  toR (nth 0%Z (residual_by w rows G X j) i) =
+  u * at_ G j i - \sum_(k <- free_ix) toR (lookup (nth [::] rows i) k) * at_ X j k.
+Proof.
+move=> size_r columns; rewrite mem_iota add0n /= => Hi.
+rewrite (nth_map_from [::]) ?size_r // add0n toRB toRM.
+by rewrite (toR_sparse_dot R _ columns).
+Qed.
+
 Lemma residual_columnE (G X : matrix) j i : i \in free_ix ->
   toR (nth 0%Z (residual_column D w G X j) i) =
   u * at_ G j i - \sum_(k <- free_ix) F i k * at_ X j k.
-Proof.
-rewrite mem_iota add0n /= => Hi.
-rewrite /residual_column (nth_map_from [::]) ?size_ff // add0n toRB toRM.
-by rewrite (toR_sparse_dot R _ (columns_ff i)).
-Qed.
+Proof. exact: residual_byE size_ff (columns_ff i). Qed.
 
 Lemma size_residual G X j : size (residual_column D w G X j) = free_count D.
 Proof. by rewrite size_map_from size_ff. Qed.
+
+(* The same with F'. *)
+Lemma size_turned : size (transposed (ff D)) = free_count D.
+Proof. by case/and3P: positive => _ + _; rewrite -size_ff; apply: size_transposed. Qed.
+
+Lemma residual_turnedE (G X : matrix) j i : i \in free_ix ->
+  toR (nth 0%Z (residual_by w (transposed (ff D)) G X j) i) =
+  u * at_ G j i - \sum_(k <- free_ix) F k i * at_ X j k.
+Proof.
+move=> Hi; rewrite residual_byE ?size_turned //; last by rewrite -size_ff transposed_range.
+by congr (_ - _); apply: eq_bigr => k _; rewrite lookup_transposed.
+Qed.
 
 Lemma condensed_near (sf ss v : matrix) i j :
   i \in slip_ix -> j \in slip_ix ->
@@ -268,7 +282,7 @@ Lemma condensed_near (sf ss v : matrix) i j :
   forall r, r = [seq residual_column D w (fs D) (right_w w) j | j <- slip_ix] ->
   `|condensed_entry sf ss i j - toR (entry (condensed_center D w ss sf v r) i j)| <=
   toR (entry (condensed_radius D w
-               [seq norm1 c | c <- [seq residual_column D w sf v j | j <- slip_ix]]
+               [seq norm1 c | c <- [seq residual_by w (transposed (ff D)) sf v j | j <- slip_ix]]
                [seq norm1 c | c <- r]) i j).
 Proof.
 move=> Hi Hj size_sf size_v r Er.
@@ -282,7 +296,8 @@ have r_j : row_of r j = residual_column D w (fs D) (right_w w) j.
 rewrite /condensed_center /condensed_radius !tableE r_j Er -!map_comp.
 rewrite !(nth_map 0%N) ?size_iota // n_i n_j /=.
 
-set rr := residual_column D w (fs D) (right_w w) j; set ll := residual_column D w sf v i.
+set rr := residual_column D w (fs D) (right_w w) j.
+set ll := residual_by w (transposed (ff D)) sf v i.
 pose L k : R := toR (nth 0%Z ll k); pose Rr k : R := toR (nth 0%Z rr k).
 pose residual := residual_r (free_count D) F (fun k j => at_ (fs D) j k) u
   (fun k j => at_ (right_w w) j k) j.
@@ -297,12 +312,12 @@ have error : condensed_entry sf ss i j -
          (unit_of w * unit_of w * entry ss i j -
           unit_of w * dot (row_of sf i) (row_of (right_w w) j) - dot (row_of v i) rr))%Z =
     - (scale_of i * \sum_(k <- free_ix) L k * z k).
-  have := condensed_residual s0 F_sym below (fun k j => at_ (fs D) j k) (at_ sf)
+  have := condensed_residual s0 below (fun k j => at_ (fs D) j k) (at_ sf)
     (fun i j => toR (entry ss i j)) u (fun k j => at_ (right_w w) j k) (fun k i => at_ v i k) i j.
   rewrite -/residual -/z /condensed_entry -[scale_of i * _ * _]mulrA => ->.
   have -> : \sum_(k <- free_ix) residual_l (free_count D) F (at_ sf) u (fun k i => at_ v i k) i k *
       z k = \sum_(k <- free_ix) L k * z k.
-    by apply: sum_eq => k Hk; rewrite /L residual_columnE.
+    by apply: sum_eq => k Hk; rewrite /L residual_turnedE.
   rewrite toRM !toRB !toRM (toR_dot R _ size_sf) (toR_dot R _ size_v) /approximate -/residual.
   rewrite -/(scale_of i) [X in _ * (_ - _ - X - _)](sum_eq (g := fun k => at_ v i k * Rr k)).
     by move: (\sum_(k <- free_ix) _) (\sum_(k <- free_ix) _) (\sum_(k <- free_ix) _) => *; ring.
@@ -310,7 +325,7 @@ have error : condensed_entry sf ss i j -
 
 rewrite error normrN normrM gtr0_norm ?scale_gt0 //.
 have norm_l : toR (norm1 ll) = \sum_(k <- free_ix) `|L k|.
-  by rewrite (toR_norm1 R (n := free_count D)) // size_residual.
+  by rewrite (toR_norm1 R (n := free_count D)) // size_map_from size_turned.
 have norm_r : toR (norm1 rr) = \sum_(k <- free_ix) `|Rr k|.
   by rewrite (toR_norm1 R (n := free_count D)) // size_residual.
 

@@ -390,9 +390,7 @@ Variables (A B A' B' : nat -> nat -> R).
 
 (* A member of a pencil within the radii, if there are any. *)
 Definition member_of Q rad (A B : nat -> nat -> R) :=
-  if rad is Some rd then
-    [/\ within_radii Q A B rd, symmetric_free Q A & symmetric_free Q B]
-  else A = a_entry R Q /\ B = b_entry R Q.
+  if rad is Some rd then within_radii Q A B rd else A = a_entry R Q /\ B = b_entry R Q.
 
 Hypothesis in_plain : member_of Q0 (omap plain_radii radii) A B.
 Hypothesis in_friction : member_of Q1 (omap friction_radii radii) A' B'.
@@ -406,14 +404,14 @@ Proof.
 case: rad => [rd|] wf /=; last first.
   rewrite /expand_member; case=> -> ->; case ex: (expand Q a) => [f|] // [<-] ba bb proper.
   exact: prepared_ready (prepare ex wf ba bb proper).
-by case=> near sC sD ex ba bb proper; apply: (member_ready wf near ex).
+by move=> near ex ba bb proper; apply: (member_ready wf near ex).
 Qed.
 
 Lemma member_swapped Q rad (C D : nat -> nat -> R) :
   member_of Q rad C D -> member_of (swap_pencil Q) (swapped_radii rad) D C.
 Proof.
 case: rad => [rd|] /=; last by case=> -> ->.
-by case=> near sC sD; split=> // i j Hi Hj; have [] := near i j Hi Hj.
+by move=> near i j Hi Hj; have [] := near i j Hi Hj.
 Qed.
 
 Section Box.
@@ -468,7 +466,7 @@ Lemma exact_parts_absent rad l : radii = Some rad -> free Q0 = [::] ->
     (widened radii (exact_part 0 0 Q1 (friction_radii rad))) r low high l -> False.
 Proof.
 move=> some no_free ok.
-move: (in_plain) (in_friction) (shares); rewrite {1 2 3}some /= => -[near _ _] [near' _ _] near_g.
+move: (in_plain) (in_friction) (shares); rewrite {1 2 3}some /= => near near' near_g.
 have all_slip : slip Q0 = indices (exact_part 0 0 Q0 (plain_radii rad)).
   rewrite /slip (_ : free Q0 = [::]) // (eq_filter (a2 := predT)) ?filter_predT //.
 have n_slip : size (slip Q0) = order Q0 by rewrite all_slip size_iota.

@@ -4,16 +4,17 @@
 
        y_f = F x_f + G x_s,    y_s = H x_f + D x_s,
 
-   F symmetric with z'Fz >= s z'z for some s > 0.  The condensed matrix is T = D - H F^-1 G.
+   with z'Fz >= s z'z for some s > 0; F need not be symmetric.  The condensed matrix is
+   T = D - H F^-1 G.
 
    [condensed_row]: with x_f = -F^-1 G x_s the free rows vanish, and y_s = T x_s.
-   [condensed_residual]: for any matrices W and V, with r = G - F W and l = H' - F V,
+   [condensed_residual]: for any matrices W and V, with r = G - F W and l = H' - F' V,
 
        T = D - H W - V' r - l' F^-1 r.
 
    [solve_norm]: |F^-1 b| <= |b| / s in Euclidean norms, so the last term is at most |l| |r| / s.
-   [remainder_difference]: for two values t and t', with F = F(t) and F' = F(t') = F + (t' - t) F1,
-   the remainders l' F^-1 r differ by (t - t') times a number that is bounded.
+   [remainder_difference]: for two values t and t' the remainders l' F^-1 r differ by (t - t')
+   times a number that is bounded.
    [condensed_polynomial]: if the blocks are polynomials in t, then det F(t) T(t) is a polynomial.
 
    Page: spec/certificates.md, 5.14.  Rust: crates/check/src/cover/condensed.rs. *)
@@ -26,11 +27,10 @@ Variables (R : realFieldType) (n : nat) (F : nat -> nat -> R) (s : R).
 Notation fi := (iota 0 n).
 Notation norm_le := (norm_le fi).
 
-Definition symmetric_on := forall i k, i \in fi -> k \in fi -> F i k = F k i.
 Definition bounded_below := forall z : nat -> R,
   s * (\sum_(k <- fi) z k ^+ 2) <= \sum_(i <- fi) \sum_(k <- fi) z i * F i k * z k.
 
-Hypotheses (s0 : 0 < s) (sym : symmetric_on) (below : bounded_below).
+Hypotheses (s0 : 0 < s) (below : bounded_below).
 
 Lemma eliminated_injective : injective_on fi F.
 Proof.
@@ -131,11 +131,11 @@ move=> part; have -> : \sum_(k <- fi) H i k * xf k =
 rewrite addrC -sumrB; apply: eq_bigr => j _; by rewrite -mulrBl.
 Qed.
 
-(* Any u, W and V; r = u G - F W, l = u H' - F V. *)
+(* Any u, W and V; r = u G - F W, l = u H' - F' V. *)
 Variables (u : R) (W V : nat -> nat -> R).
 
 Definition residual_r j k := u * G k j - \sum_(m <- fi) F k m * W m j.
-Definition residual_l i k := u * H i k - \sum_(m <- fi) F k m * V m i.
+Definition residual_l i k := u * H i k - \sum_(m <- fi) F m k * V m i.
 
 Definition approximate i j := u ^+ 2 * D i j - u * (\sum_(k <- fi) H i k * W k j) -
   \sum_(k <- fi) V k i * residual_r j k.
@@ -158,7 +158,7 @@ have -> : \sum_(k <- fi) residual_l i k * z k = u * (\sum_(k <- fi) H i k * z k)
     by apply: eq_bigr => k _; rewrite mulrA.
   under eq_bigr do rewrite mulr_suml; rewrite exchange_big; apply: sum_eq => m Hm.
   rewrite -(solveP (residual_r j)) // mulr_sumr; apply: sum_eq => k Hk.
-  by rewrite (sym Hm Hk) -/(z k); move: (F _ _) (V _ _) (z k) => *; ring.
+  by rewrite -/(z k); move: (F _ _) (V _ _) (z k) => *; ring.
 have solved : u * (\sum_(k <- fi) H i k * solve (G^~ j) k) =
     \sum_(k <- fi) H i k * W k j + \sum_(k <- fi) H i k * z k.
   by rewrite mulr_sumr -big_split; apply: sum_eq => k Hk /=; rewrite -mulrDr -zE // mulrCA.
@@ -175,9 +175,9 @@ Variables (R : realFieldType) (n : nat) (F F' M : nat -> nat -> R) (s e beta : R
 Notation fi := (iota 0 n).
 Notation norm_le := (norm_le fi).
 Hypotheses (s0 : 0 < s) (below : bounded_below n F s) (below' : bounded_below n F' s).
-Hypotheses (sym' : symmetric_on n F') (sym_M : symmetric_on n M).
 Hypothesis difference : forall i k, i \in fi -> k \in fi -> F i k - F' i k = e * M i k.
 Hypotheses (rows : forall i, i \in fi -> \sum_(k <- fi) `|M i k| <= beta) (beta0 : 0 <= beta).
+Hypothesis columns : forall k, k \in fi -> \sum_(i <- fi) `|M i k| <= beta.
 
 Variables (l l' r r' ql qr : nat -> R) (nl nr nql nqr : R).
 Hypotheses (l_diff : forall k, l k - l' k = e * ql k) (r_diff : forall k, r k - r' k = e * qr k).
@@ -188,10 +188,13 @@ Lemma remainder_difference : exists2 q,
   \sum_(k <- fi) l k * solve n F r k - \sum_(k <- fi) l' k * solve n F' r' k = e * q &
   `|q| <= (nql * nr + nl * nqr) / s + nl * nr * beta / s ^+ 2.
 Proof.
-have inj' := eliminated_injective s0 below'.
-pose z := solve n F r; pose z' := solve n F' r'; pose zeta := solve n F' l'.
+have turned : bounded_below n (fun i k => F' k i) s.
+  move=> y; rewrite [X in _ <= X]exchange_big; apply: le_trans (below' y) _.
+  rewrite (_ : \sum_(i <- fi) _ = \sum_(i <- fi) \sum_(k <- fi) y k * F' i k * y i) //.
+  by apply: eq_bigr => i _; apply: eq_bigr => k _; rewrite mulrAC [y i * _]mulrC mulrAC.
+pose z := solve n F r; pose z' := solve n F' r'; pose zeta := solve n (fun i k => F' k i) l'.
 have z_norm : norm_le z (nr / s) := solve_norm s0 below nr_.
-have zeta_norm : norm_le zeta (nl / s) := solve_norm s0 below' nl'.
+have zeta_norm : norm_le zeta (nl / s) := solve_norm s0 turned nl'.
 
 (* l' . (z - z') = zeta . F' (z - z') = e zeta . (qr - M z) *)
 have moved k : k \in fi -> \sum_(m <- fi) F' k m * (z m - z' m) =
@@ -206,8 +209,8 @@ have zetaE : \sum_(k <- fi) l' k * (z k - z' k) =
                                                    zeta k * M k m * z m).
   transitivity (\sum_(k <- fi) zeta k * \sum_(m <- fi) F' k m * (z m - z' m)).
     under [RHS]eq_bigr do rewrite mulr_sumr; rewrite exchange_big; apply: sum_eq => m Hm.
-    rewrite -(solveP s0 below' l' Hm) mulr_suml; apply: sum_eq => k Hk.
-    by rewrite -/(zeta k) (sym' Hm Hk); move: (F' _ _) (zeta _) (z m - _) => *; ring.
+    rewrite -(solveP s0 turned l' Hm) mulr_suml; apply: sum_eq => k Hk.
+    by rewrite -/(zeta k); move: (F' _ _) (zeta _) (z m - _) => *; ring.
   rewrite mulrBr !mulr_sumr -sumrB; apply: sum_eq => k Hk; rewrite moved //.
   rewrite mulrCA mulrBr mulrBr; congr (_ - e * _).
   by rewrite mulr_sumr; apply: eq_bigr => m _; rewrite mulrA.
@@ -218,7 +221,7 @@ exists (\sum_(k <- fi) ql k * z k + (\sum_(k <- fi) zeta k * qr k -
   rewrite mulrA -l_diff -/(z k) -/(z' k).
   by move: (l k) (l' k) (z k) (z' k) => *; ring.
 have one := dot_bound nql_ z_norm; have two := dot_bound zeta_norm nqr_.
-have three := bilinear_bound sym_M rows beta0 zeta_norm z_norm.
+have three := bilinear_bound rows columns beta0 zeta_norm z_norm.
 apply: le_trans (ler_norm_add _ _) _.
 have -> : (nql * nr + nl * nqr) / s + nl * nr * beta / s ^+ 2 =
     nql * (nr / s) + (nl / s * nqr + nl / s * (nr / s) * beta).

@@ -286,6 +286,9 @@ apply: norm_add; first by apply: each; rewrite mem_head.
 by apply: IH => i Hi; apply: each; rewrite inE Hi orbT.
 Qed.
 
+Definition symmetric_on (R : Type) n (F : nat -> nat -> R) :=
+  forall i k, i \in iota 0 n -> k \in iota 0 n -> F i k = F k i.
+
 (* A linear form of a vector and the quadratic form F. *)
 Section Form.
 

@@ -250,37 +250,6 @@ Qed.
 
 End Near.
 
-(* A free variable moves one degree of freedom. *)
-Lemma motion_free_basis j d : (j < nf)%N -> d \in all_dofs ->
-  zero_motion z (basis j) d = if d == nth 0%N (free_dofs s) j then L else 0.
-Proof.
-move=> lt_j Hd; have [moves|rests] := boolP (d \in moving_dofs s).
-  rewrite (zero_motion_moving wf) // /motion.
-  case: eqP => [->|other]; first by rewrite (column_free wf_s) // /basis eqxx mulr1.
-  case col: (column s d) => [[i c]|] //; rewrite /basis; case: eqP => [ij|_]; last by rewrite mulr0.
-  move: col; rewrite ij /column; case: ifP => [d_in [eq_j _]|_].
-    by case: other; rewrite -eq_j nth_index.
-  case: ifP => [_ [eq_j _]|_]; first by move: lt_j; rewrite -eq_j ltnNge leq_addr.
-  by case: ifP => // _ [eq_j _]; move: lt_j; rewrite -eq_j ltnNge leq_addr.
-rewrite zero_motion_rest //; last by rewrite /moving_with_zero cats0.
-case: eqP => // eq_d; move: rests; rewrite eq_d mem_cat mem_nth //.
-Qed.
-
-Lemma part_symmetric a b k :
-  (forall d e, d \in all_dofs -> e \in all_dofs -> k d e = k e d) ->
-  symmetric_free Q0 (part_entry a b k).
-Proof.
-move=> sym i j; rewrite !mem_iota !add0n /= => lt_i lt_j.
-have entryE i' j' : (i' < nf)%N -> (j' < nf)%N -> part_entry a b k i' j' =
-    k (nth 0%N (free_dofs s) i') (nth 0%N (free_dofs s) j') * L.
-  move=> lt_i' lt_j'; rewrite /part_entry /part_row lt_i' /forced.
-  have in_j := free_dof_in wf_s lt_j'.
-  rewrite (bigD1_seq (nth 0%N (free_dofs s) j')) ?iota_uniq //= motion_free_basis // eqxx.
-  rewrite big_seq_cond big1 ?addr0 // => d /andP[Hd /negbTE other].
-  by rewrite motion_free_basis // other mulr0.
-by rewrite !entryE // sym // (free_dof_in wf_s).
-Qed.
-
 (* Members. *)
 Variables (k m : nat -> nat -> R) (g : nat -> R).
 
@@ -316,11 +285,11 @@ by split; apply: part_near => // d e Hd He; have [] := near d e Hd He.
 Qed.
 
 Lemma member_plain : member_of Q0 (omap plain_radii radii) (part_entry 0 1 k) (part_entry 0 1 m).
-Proof. by have [sk sm _ _] := member; split; [exact: part_within | exact: part_symmetric..]. Qed.
+Proof. exact: part_within. Qed.
 
 Lemma member_friction :
   member_of Q1 (omap friction_radii radii) (part_entry 1 0 k) (part_entry 1 0 m).
-Proof. by have [sk sm _ _] := member; split; [exact: part_within | exact: part_symmetric..]. Qed.
+Proof. exact: part_within. Qed.
 
 Lemma slip_size : size (slip Q0) = ns.
 Proof. by rewrite (size_slips z (Lambda2 0 1)) /slip_number muln0 addn0. Qed.
@@ -411,10 +380,9 @@ Lemma signed_absent c f f' (nf' := size (free Q0)) (P := exact_part nf' c Q0 (pl
     (P' := widened (Some (radii_of_all nf' rd)) (exact_part nf' 0 Q1 (friction_radii rd))) :
   (0 <=? c)%Z -> box_signed (mixed low P P') (mixed high P P') r f f' -> False.
 Proof.
-move=> c0; have [near _ _] := member_plain; have [near' _ _] := member_friction.
-have E := exact_encloses (first := nf') c0 near.
+move=> c0; have E := exact_encloses (first := nf') c0 member_plain.
 have E' := widened_encloses (P := exact_part _ _ Q1 _) shares_of_all
-  (exact_encloses (first := nf') (factor := 0%Z) isT near').
+  (exact_encloses (first := nf') (factor := 0%Z) isT member_friction).
 have same : size_of P' = size_of P by [].
 have [a [b [a0 b0 [one val] [ab _]]]] := weights_of_ends Om bm.
 have [l1 l2 h1 h2] := ordered_ge0 R Om.

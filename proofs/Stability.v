@@ -136,7 +136,7 @@ Definition check_shapes free friction mass mass_friction :=
       small free && small mass,
       small [seq nth [::] friction (free_number s + j) | j <- sides],
       small [seq nth [::] mass_friction (free_number s + j) | j <- sides] &
-      symmetric_rows_sparse free].
+      symmetric_rows_sparse free && symmetric_rows_sparse mass].
 
 (* An end at mu = e.1 / e.2; its tables are made once. *)
 Section End.
@@ -432,7 +432,7 @@ Lemma small_rows :
   [/\ all (all (fun e => e.1 < n)%N) (k_rows s), all (all (fun e => e.1 < n)%N) (m_rows s),
       forall j, j \in si -> all (fun e => e.1 < n)%N (k_friction s j),
       forall j, j \in si -> all (fun e => e.1 < n)%N (m_friction s j) &
-      symmetric_rows_sparse (k_rows s)].
+      symmetric_rows_sparse (k_rows s) && symmetric_rows_sparse (m_rows s)].
 Proof.
 have [_ _ /and5P[_ _ /andP[k m] kf /andP[mf sym]] _ _] := checked_rest.
 by split=> // j; apply: small_slip.
@@ -499,7 +499,7 @@ Qed.
 
 Lemma sym_k i j : i \in ix -> j \in ix -> KK i j = KK j i.
 Proof.
-have [_ _ _ _ sym] := small_rows; rewrite !mem_iota !add0n => /= lt_i lt_j.
+have [_ _ _ _ /andP[sym _]] := small_rows; rewrite !mem_iota !add0n => /= lt_i lt_j.
 by rewrite /KK (symmetric_lookup sym) ?size_k.
 Qed.
 
@@ -526,8 +526,8 @@ Qed.
 
 Lemma sym_m i j : i \in ix -> j \in ix -> MM i j = MM j i.
 Proof.
-rewrite !mem_iota !add0n => /= lt_i lt_j.
-by rewrite /MM (bounded_lookup_sym bounded_m).
+have [_ _ _ _ /andP[_ sym]] := small_rows; rewrite !mem_iota !add0n => /= lt_i lt_j.
+by rewrite /MM (symmetric_lookup sym) ?(size_bounded bounded_m).
 Qed.
 
 Notation fraction e := (toR e.1 / toR e.2 : R).
@@ -631,9 +631,6 @@ move=> z; rewrite mulrAC ler_pdivr_mulr ?bc0 // [X in _ <= X]mulrC -free_countE.
 exact: (F_bounded positive z).
 Qed.
 
-Lemma sym_F : symmetric_on nf F.
-Proof. by move=> i k; rewrite -free_countE; apply: (F_sym R positive). Qed.
-
 Lemma free_F i k : i \in fi -> k \in fi -> KK i k = L * F i k.
 Proof.
 rewrite !mem_iota !add0n => /= lt_i lt_k.
@@ -641,6 +638,13 @@ rewrite /KK /Condensation.F nth_symmetric toRM /length_of lt_i; congr (_ * toR _
 have sz : size (Pencil.free Q) = nf by rewrite /= size_iota.
 rewrite /= (nth_map 0%N) ?size_iota // (lookup_restrict wf_Q) ?sz //.
 by rewrite !nth_iota // !add0n.
+Qed.
+
+Lemma sym_F : symmetric_on nf F.
+Proof.
+move=> i k Hi Hk; apply: (mulfI (lt0r_neq0 L0)); rewrite -!free_F //.
+by move: Hi Hk; rewrite !mem_iota !add0n => /= lt_i lt_k; apply: sym_k;
+  rewrite mem_iota add0n ltn_addr.
 Qed.
 
 Lemma slip_R j k : j \in si -> k \in fi -> RR j k = @at_ R (sf_b D) j k.

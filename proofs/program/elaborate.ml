@@ -815,7 +815,8 @@ let elimination_at t given (pencil : Kernel.pencil) slip common slip_common cond
     let frees = Array.of_list pencil.free in
     let rows = Array.of_list pencil.rows_a in
     let c = two_to 112 in
-    let entry i j = Z.mul c (Kernel.lookup rows.(i) j) in
+    let entry i j =
+      Z.mul (two_to 111) (Z.add (Kernel.lookup rows.(i) j) (Kernel.lookup rows.(j) i)) in
     let form = Array.map (fun i -> Array.map (entry i) frees) frees in
     let diagonal = Array.to_list (Array.mapi (fun i row -> row.(i)) form) in
     let least = List.fold_left Z.min (List.hd diagonal) diagonal in

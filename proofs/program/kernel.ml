@@ -1451,6 +1451,24 @@ let times_row c row =
 type form_bound = { bound_times : Big_int_Z.big_int; bound_at : Big_int_Z.big_int;
                     gram_times : Big_int_Z.big_int; gram_rows : late_row list }
 
+(** val columns_from : int -> int -> sparse_row list -> sparse_row list **)
+
+let rec columns_from n i = function
+| [] -> nseq n []
+| row :: rows' ->
+  foldr (fun e table0 -> set_nth [] table0 (fst e) ((i, (snd e)) :: (nth [] table0 (fst e))))
+    (columns_from n (Natural.succ i) rows') row
+
+(** val transposed : sparse_row list -> sparse_row list **)
+
+let transposed rows =
+  columns_from (size rows) 0 rows
+
+(** val doubled_rows : sparse_row list -> (int * Big_int_Z.big_int) list list **)
+
+let doubled_rows rows =
+  map0 (fun r -> cat (fst r) (snd r)) (zip rows (transposed rows))
+
 (** val spread : sparse_row -> Big_int_Z.big_int list **)
 
 let spread row =
@@ -1502,9 +1520,12 @@ let bounded_rows n rows b =
       ((&&) (Z.leb Big_int_Z.zero_big_int b.gram_times)
         ((&&) (eq_op nat_eqType (Obj.magic size rows) n)
           ((&&) (eq_op nat_eqType (Obj.magic size b.gram_rows) n)
-            ((&&) (symmetric_rows_sparse rows)
-              (all_from (row_bounded b.bound_times b.bound_at b.gram_times b.gram_rows) 0
-                (zip rows b.gram_rows)))))))
+            (all_from
+              (row_bounded b.bound_times
+                (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+                  b.bound_at)
+                (Big_int_Z.mult_big_int (Big_int_Z.mult_int_big_int 2 Big_int_Z.unit_big_int)
+                  b.gram_times) b.gram_rows) 0 (zip (doubled_rows rows) b.gram_rows))))))
 
 type blocks = { free_count : int; slip_count : int; ff : sparse_row list; fs : matrix;
                 sf_a : matrix; sf_b : matrix; ss_a : matrix; ss_b : matrix }
@@ -1552,15 +1573,21 @@ let stiffness_positive d w =
       (all (fun row -> all (fun entry0 -> leq (Natural.succ (fst entry0)) d.free_count) row)
         d.ff) (bounded_rows (Obj.magic d.free_count) d.ff (eliminated_bound w)))
 
-(** val residual_column :
-    blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
+(** val residual_by :
+    elimination -> sparse_row list -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
 
-let residual_column d w g x j =
+let residual_by w rows g x j =
   let g0 = row_of g j in
   let x0 = row_of x j in
   map_from (fun i row ->
     Big_int_Z.sub_big_int (Big_int_Z.mult_big_int w.unit_of (nth Big_int_Z.zero_big_int g0 i))
-      (sparse_dot row x0)) 0 d.ff
+      (sparse_dot row x0)) 0 rows
+
+(** val residual_column :
+    blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list **)
+
+let residual_column d w =
+  residual_by w d.ff
 
 (** val table : blocks -> (int -> int -> Big_int_Z.big_int) -> matrix **)
 
@@ -1593,11 +1620,13 @@ let condensed_radius d w norms_l norms_r =
 (** val condensed : blocks -> elimination -> enclosed **)
 
 let condensed d w =
-  let columns = fun g x -> map0 (fun j -> residual_column d w g x j) (iota 0 d.slip_count) in
-  let r = columns d.fs w.right_w in
+  let columns = fun rows g x -> map0 (fun j -> residual_by w rows g x j) (iota 0 d.slip_count)
+  in
+  let turned0 = transposed d.ff in
+  let r = columns d.ff d.fs w.right_w in
   let norms_r = map0 norm1 r in
-  let norms_a = map0 norm1 (columns d.sf_a w.left_va) in
-  let norms_b = map0 norm1 (columns d.sf_b w.left_vb) in
+  let norms_a = map0 norm1 (columns turned0 d.sf_a w.left_va) in
+  let norms_b = map0 norm1 (columns turned0 d.sf_b w.left_vb) in
   { size_of = d.slip_count; center_a = (condensed_center d w d.ss_a d.sf_a w.left_va r);
   center_b = (condensed_center d w d.ss_b d.sf_b w.left_vb r); radius_a =
   (condensed_radius d w norms_a norms_r); radius_b = (condensed_radius d w norms_b norms_r) }
@@ -3725,7 +3754,8 @@ let residual_right q a sign0 =
 (** val residual_left : pencil -> anchor -> Big_int_Z.big_int -> matrix list **)
 
 let residual_left q a sign0 =
-  residual_series a sign0 (ff_block q (row_0 q a)) (ff_block q (row_1 q a))
+  residual_series a sign0 (transposed (ff_block q (row_0 q a)))
+    (transposed (ff_block q (row_1 q a)))
     ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: [])) a.anchor_left
 
 (** val center_series : pencil -> anchor -> Big_int_Z.big_int -> matrix list -> matrix list **)
@@ -3751,11 +3781,11 @@ let row_sum row =
 (** val expand_from :
     pencil -> anchor -> sparse_row list -> matrix list -> matrix list -> anchor_family **)
 
-let expand_from q a f1 l r =
+let expand_from q a sums l r =
   { series_z = (center_series q a (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) r);
     left_norms = (map0 (fun i -> norms0 l i) (iota 0 (size (slip q)))); right_norms =
     (map0 (fun j -> norms0 r j) (iota 0 (size (slip q)))); drift =
-    (foldr Big_int_Z.max_big_int Big_int_Z.zero_big_int (map0 row_sum f1)); spread_z = [] }
+    (foldr Big_int_Z.max_big_int Big_int_Z.zero_big_int (map0 row_sum sums)); spread_z = [] }
 
 (** val small : pencil -> matrix list -> bool **)
 
@@ -3767,8 +3797,9 @@ let small q l =
 let expand q a =
   let f0 = ff_block q (row_0 q a) in
   let f1 = ff_block q (row_1 q a) in
+  let turned0 = transposed f1 in
   let l =
-    residual_series a (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) f0 f1
+    residual_series a (Big_int_Z.minus_big_int Big_int_Z.unit_big_int) (transposed f0) turned0
       ((sf_block q (row_0 q a)) :: ((sf_block q (row_1 q a)) :: [])) a.anchor_left
   in
   let r =
@@ -3782,7 +3813,7 @@ let expand q a =
              Z.ltb Big_int_Z.zero_big_int (nth Big_int_Z.zero_big_int a.anchor_scale i))
              (iota 0 (size (slip q))))
            ((&&) (small q a.anchor_left) ((&&) (small q l) (small q r)))))
-  then Some (expand_from q a f1 l r)
+  then Some (expand_from q a (cat f1 turned0) l r)
   else None
 
 (** val radii_pencil : pencil -> (sparse_row list * sparse_row list) -> pencil **)
@@ -3831,8 +3862,11 @@ let expand_member q radii a =
 (** val lowered : sparse_row list -> sparse_row list -> sparse_row list **)
 
 let lowered rows radii =
-  map0 (fun i -> (i, (Big_int_Z.minus_big_int (row_sum (nth [] radii i)))) :: (nth [] rows i))
-    (iota 0 (size rows))
+  let turned0 = transposed radii in
+  map0 (fun i -> (i,
+    (Big_int_Z.minus_big_int
+      (Big_int_Z.max_big_int (row_sum (nth [] radii i)) (row_sum (nth [] turned0 i))))) :: 
+    (nth [] rows i)) (iota 0 (size rows))
 
 (** val lowered_block :
     pencil -> (pencil -> int -> sparse_row) -> (sparse_row list * sparse_row list) option ->
@@ -6189,7 +6223,8 @@ let check_shapes s d free0 friction mass0 mass_friction =
           ((&&)
             (small0
               (map0 (fun j -> nth [] mass_friction (addn (free_number s) j))
-                (iota 0 (size s.particles)))) (symmetric_rows_sparse free0)))))
+                (iota 0 (size s.particles))))
+            ((&&) (symmetric_rows_sparse free0) (symmetric_rows_sparse mass0))))))
 
 (** val drag_times :
     stability -> Big_int_Z.big_int list -> point -> int -> Big_int_Z.big_int **)

@@ -558,6 +558,12 @@ val times_row : Big_int_Z.big_int -> sparse_row -> sparse_row
 type form_bound = { bound_times : Big_int_Z.big_int; bound_at : Big_int_Z.big_int;
                     gram_times : Big_int_Z.big_int; gram_rows : late_row list }
 
+val columns_from : int -> int -> sparse_row list -> sparse_row list
+
+val transposed : sparse_row list -> sparse_row list
+
+val doubled_rows : sparse_row list -> (int * Big_int_Z.big_int) list list
+
 val spread : sparse_row -> Big_int_Z.big_int list
 
 val shifted_row : Big_int_Z.big_int -> Big_int_Z.big_int -> int -> sparse_row -> sparse_row
@@ -592,6 +598,9 @@ val divide_up : Big_int_Z.big_int -> Big_int_Z.big_int -> Big_int_Z.big_int
 val eliminated_bound : elimination -> form_bound
 
 val stiffness_positive : blocks -> elimination -> bool
+
+val residual_by :
+  elimination -> sparse_row list -> matrix -> matrix -> int -> Big_int_Z.big_int list
 
 val residual_column : blocks -> elimination -> matrix -> matrix -> int -> Big_int_Z.big_int list
 
