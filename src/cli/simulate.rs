@@ -113,7 +113,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     Ok(exit_code(&simulation))
 }
 
-/// The system of the problem, at the friction of the option if there is one.
+/// The system of the problem, at the friction of the option if there is one; with its radii, so
+/// that a set of bodies is refused either way.
 fn system_of(args: &Args, problem: &Problem) -> Result<System, CliError> {
     let Body::System(system) = problem.body() else {
         return Err(CliError::SimulatedPencil);
@@ -124,7 +125,7 @@ fn system_of(args: &Args, problem: &Problem) -> Result<System, CliError> {
 
     let friction = friction_of("friction", given)?;
     let states: Vec<ContactState> = system.particles().iter().map(|p| p.state).collect();
-    Ok(system.as_given().with_states(&states, Some(friction))?)
+    Ok(system.with_states(&states, Some(friction))?)
 }
 
 fn require_counts(args: &Args) -> Result<(), CliError> {
