@@ -172,39 +172,49 @@ pub fn main() -> ExitCode {
 }
 
 /// How alike a misspelt word and the one that is meant are at least: one less the share of letters
-/// that differ.
+/// that differ. What clap suggests may be less: for `frobnicate` it has `elaborate`.
 const ALIKE: f64 = 0.5;
 
-/// The option or command that a misspelt one is nearest to, as a clause; nothing if none is near.
-fn meant(e: &clap::Error) -> String {
-    let texts = |kinds: [ContextKind; 3]| {
-        let found = kinds.into_iter().find_map(|kind| e.get(kind));
-        match found {
-            Some(ContextValue::String(one)) => std::slice::from_ref(one),
-            Some(ContextValue::Strings(several)) => several,
-            _ => &[],
-        }
-    };
-    let given = texts([
-        ContextKind::InvalidSubcommand,
-        ContextKind::InvalidArg,
-        ContextKind::InvalidValue,
-    ]);
-    let suggested = texts([
-        ContextKind::SuggestedSubcommand,
-        ContextKind::SuggestedArg,
-        ContextKind::SuggestedValue,
-    ]);
+/// Letters from which on the beginning of a word stands for the word.
+const SHORTEST_BEGINNING: usize = 3;
 
-    let likeness = |word: &String| {
-        let given = given.first().map_or("", String::as_str);
-        strsim::normalized_damerau_levenshtein(given, word)
+/// The command, value or option that a misspelt or shortened one is nearest to, as a clause;
+/// nothing if none is near.
+fn meant(e: &clap::Error) -> String {
+    // The error about a value names its option too.
+    let pairs = [
+        (
+            ContextKind::InvalidSubcommand,
+            ContextKind::SuggestedSubcommand,
+        ),
+        (ContextKind::InvalidValue, ContextKind::SuggestedValue),
+        (ContextKind::InvalidArg, ContextKind::SuggestedArg),
+    ];
+    let words = |kind: ContextKind| match e.get(kind) {
+        Some(ContextValue::String(one)) => std::slice::from_ref(one),
+        Some(ContextValue::Strings(several)) => several,
+        _ => &[],
     };
-    let near = suggested.iter().filter(|word| likeness(word) >= ALIKE);
+    let found = pairs
+        .into_iter()
+        .find_map(|(given, suggested)| Some((words(given).first()?, words(suggested))));
+    let Some((given, suggested)) = found else {
+        return String::new();
+    };
+
+    let likeness = |word: &String| strsim::normalized_damerau_levenshtein(given, word);
+    let is_near = |word: &&String| likeness(word) >= ALIKE || is_beginning(given, word);
+    let near = suggested.iter().filter(is_near);
     match near.max_by(|a, b| likeness(a).total_cmp(&likeness(b))) {
         Some(word) => format!("; is {word} meant?"),
         None => String::new(),
     }
+}
+
+/// Is what was given the beginning of the word, without the dashes of an option?
+fn is_beginning(given: &str, word: &str) -> bool {
+    let [given, word] = [given, word].map(|text| text.trim_start_matches('-'));
+    given.chars().count() >= SHORTEST_BEGINNING && word.starts_with(given)
 }
 
 /// The command whose usage was not kept: the words before its options and arguments.
