@@ -683,7 +683,11 @@ mod tests {
         }
         judged.lift(&problem, system);
 
-        assert_eq!(judged.certified.len(), 1);
+        let [kept] = &judged.certified[..] else {
+            panic!("one point is kept")
+        };
+        assert_eq!(kept.index, 0);
+        assert!(matches!(kept.claim, Claim::LiftedSolution(_)));
         let places: Vec<usize> = judged.refused.iter().map(|r| r.index).collect();
         assert_eq!(places, [4]);
     }
