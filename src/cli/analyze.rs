@@ -152,7 +152,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         output.write(&page::page(&analysis, &drawn))
     });
     let pictures = if pictures.are_wanted() {
-        pictures.write_bodies(&drawn.pictures(&analysis))
+        let written = pictures.write(&drawn.pictures(&analysis));
+        pictures.tell_no_body();
+        written
     } else {
         Ok(())
     };

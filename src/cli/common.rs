@@ -480,12 +480,17 @@ pub(super) fn aside(line: &str) {
 /// Characters of an error that are printed.
 const LONGEST_ERROR: usize = 300;
 
-/// Prints an error: one line on stderr, of a long one the beginning and the end.
+/// Prints an error on stderr; see [`error_line`].
 pub(super) fn complain(error: &str) {
+    aside(&error_line(error));
+}
+
+/// An error as one line, of a long one the beginning and the end.
+pub(super) fn error_line(error: &str) -> String {
     let line = format!("mceip: {error}").replace('\n', " ");
     let length = line.chars().count();
     if length <= LONGEST_ERROR {
-        return aside(&line);
+        return line;
     }
 
     let end_length = LONGEST_ERROR / 3;
@@ -493,7 +498,7 @@ pub(super) fn complain(error: &str) {
     let begin_length = LONGEST_ERROR - end_length - gap.len();
     let begin: String = line.chars().take(begin_length).collect();
     let end: String = line.chars().skip(length - end_length).collect();
-    aside(&format!("{begin}{gap}{end}"));
+    format!("{begin}{gap}{end}")
 }
 
 /// The text without characters that act on a terminal: control characters but for ends of line and

@@ -10,7 +10,7 @@ mod own;
 mod pages;
 mod states;
 
-use super::common::{CliError, exit, friction_of, print_answer, text};
+use super::common::{CliError, error_line, exit, friction_of, print_answer, text};
 use super::job::Job;
 use super::output::{Folder, Output};
 use super::pictures::{self, PictureArgs};
@@ -203,12 +203,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let path = followed.as_path();
     let names = loads.step_names();
     // Each output is written as soon as its data are there. What cannot be written is told at once,
-    // and takes nothing else along.
+    // of pictures that are written together the first file; it takes nothing else along.
     let is_written = Cell::new(true);
     let tell = |written: Result<(), CliError>| {
         if let Err(e) = written {
             let why = with_short_numbers(&e.to_string());
-            job.note(&format!("mceip: {why}; the run goes on"));
+            job.note(&error_line(&format!("{why}; the run goes on")));
             is_written.set(false);
         }
     };
@@ -218,11 +218,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(file) = reactions {
         tell(file.write(&followed.reactions_csv()));
     }
-    let chart = pages::path_chart(&followed, &names);
-    if let Some(file) = picture {
-        tell(file.write(&chart.to_svg()));
+    if picture.is_some() || pictures.are_wanted() {
+        let chart = pages::path_chart(&followed, &names);
+        if let Some(file) = picture {
+            tell(file.write(chart.svg()));
+        }
+        tell(pictures.write(&[chart]));
     }
-    tell(pictures.write(&[chart]));
 
     let say = |progress: &Progress<'_>| job.say(progress);
     let watch = Watch::new(job.cancel(), &say);
@@ -231,9 +233,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let uncondensed = args.uncondensed || args.doubles;
     let own = own_asked.map(|grid| own_critical(&followed, grid, proofs.as_ref(), args, &job));
     let own = own.transpose()?;
-    // An interrupted run leaves no pictures of what it was asked.
+    // After an interrupt the pictures of bodies and states are not drawn; the path is complete and
+    // its own stays.
     if pictures.are_wanted() && !job.is_cancelled() {
-        tell(pictures.write_bodies(&pages::bodies(&followed, own.as_ref())));
+        tell(pictures.write(&pages::beside_the_path(&followed, own.as_ref())));
     }
     let analysed = if args.analyze {
         let question = followed.analyze().cancel(job.cancel());
@@ -291,6 +294,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         _ => None,
     };
     job.end();
+    if !job.is_cancelled() {
+        pictures.tell_no_body();
+    }
 
     let outcome = PathOutcome {
         followed: &followed,

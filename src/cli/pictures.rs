@@ -10,12 +10,15 @@ use mceip_engine::reduction::SparseCondensation;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::{level_solutions, static_frequency2};
 use mceip_model::System;
+use std::cell::{Cell, OnceCell};
 use std::path::{Path, PathBuf};
 
 /// A picture with the name of its file and what to read off it.
 pub(super) struct Named {
     name: String,
     picture: Picture,
+    /// The picture as SVG, once it was asked for.
+    svg: OnceCell<String>,
     caption: String,
     /// Of a body: the same as a VTU file.
     vtu: Option<String>,
@@ -30,6 +33,7 @@ impl Named {
         Named {
             name: name.into(),
             picture,
+            svg: OnceCell::new(),
             caption: caption.into(),
             vtu: None,
         }
@@ -48,8 +52,8 @@ impl Named {
         }
     }
 
-    pub(super) fn to_svg(&self) -> String {
-        self.picture.to_svg()
+    pub(super) fn svg(&self) -> &str {
+        self.svg.get_or_init(|| self.picture.to_svg())
     }
 
     pub(super) fn into_figure(self) -> Content {
@@ -103,6 +107,7 @@ impl PictureArgs {
         Ok(PictureFolders {
             pictures: Folder::prepare_if("pictures", self.pictures.as_deref(), &[file])?,
             vtk: Folder::prepare_if("vtk", self.vtk.as_deref(), &[file])?,
+            has_body: Cell::new(false),
         })
     }
 }
@@ -111,6 +116,8 @@ impl PictureArgs {
 pub(super) struct PictureFolders {
     pictures: Option<Folder>,
     vtk: Option<Folder>,
+    /// Was a body to be written as VTU so far?
+    has_body: Cell<bool>,
 }
 
 impl PictureFolders {
@@ -119,28 +126,50 @@ impl PictureFolders {
         self.pictures.is_some() || self.vtk.is_some()
     }
 
-    /// Writes pictures among which a body is expected.
-    pub(super) fn write_bodies(&self, all: &[Named]) -> Result<(), CliError> {
-        if self.vtk.is_some() && all.iter().all(|named| named.vtu.is_none()) {
-            aside("mceip: --vtk: no body and no mode is drawn here, so that nothing is written");
+    /// Writes the pictures as SVG files, as PNG too in a build with the feature png; bodies as VTU.
+    /// A file that cannot be written keeps no other from it; the first such failure.
+    pub(super) fn write(&self, all: &[Named]) -> Result<(), CliError> {
+        let mut written = Ok(());
+        for named in all {
+            written = written.and(self.write_svg(named));
+            #[cfg(feature = "png")]
+            {
+                written = written.and(self.write_png(named));
+            }
+            written = written.and(self.write_vtu(named));
         }
-        self.write(all)
+
+        written
     }
 
-    /// Writes the pictures as SVG files, as PNG too in a build with the feature png; bodies as VTU.
-    pub(super) fn write(&self, all: &[Named]) -> Result<(), CliError> {
-        for named in all {
-            if let Some(folder) = &self.pictures {
-                folder.write(&format!("{}.svg", named.name), named.to_svg().as_bytes())?;
-                #[cfg(feature = "png")]
-                folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
-            }
-            if let (Some(folder), Some(vtu)) = (&self.vtk, &named.vtu) {
-                folder.write(&format!("{}.vtu", named.name), vtu.as_bytes())?;
-            }
-        }
+    fn write_svg(&self, named: &Named) -> Result<(), CliError> {
+        let Some(folder) = &self.pictures else {
+            return Ok(());
+        };
+        folder.write(&format!("{}.svg", named.name), named.svg().as_bytes())
+    }
 
-        Ok(())
+    #[cfg(feature = "png")]
+    fn write_png(&self, named: &Named) -> Result<(), CliError> {
+        let Some(folder) = &self.pictures else {
+            return Ok(());
+        };
+        folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)
+    }
+
+    fn write_vtu(&self, named: &Named) -> Result<(), CliError> {
+        let (Some(folder), Some(vtu)) = (&self.vtk, &named.vtu) else {
+            return Ok(());
+        };
+        self.has_body.set(true);
+        folder.write(&format!("{}.vtu", named.name), vtu.as_bytes())
+    }
+
+    /// After all pictures: says that there is no VTU file if none of them was of a body.
+    pub(super) fn tell_no_body(&self) {
+        if self.vtk.is_some() && !self.has_body.get() {
+            aside("mceip: --vtk: no body and no mode is drawn here, so that nothing is written");
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 #![cfg(feature = "cli")]
 
 use crate::common::{
-    decimal, example, exits, exits_with_json, names_in, read, read_json, refused, repository,
+    decimal, example, exits, exits_with_json, names_in, read, read_json, refused, repository, run,
 };
 use crate::program::Folder;
 use mceip::FrictionGrid;
@@ -505,6 +505,29 @@ fn the_body_under_load_is_written_for_paraview() {
             }
         }
     }
+}
+
+/// At mu = 2.7 the path ends before its loads, so that no equilibrium at their end decides. The
+/// modes of --complete are bodies too.
+#[test]
+fn that_no_body_is_drawn_is_said_after_all_pictures() {
+    let folder = Folder::new();
+    let [without, with] = ["without", "with"].map(|name| folder.path(name));
+    let file = example("loads");
+    let own = "--own-critical 2.6,2.8 --grid 1 --width 0.05 --end-alone";
+    let said = "no body and no mode is drawn here";
+
+    let ends = run(&format!("path {file} {own} --vtk {without}"));
+    assert_eq!(ends.code, Some(0), "{ends:?}");
+    assert!(ends.stderr.contains(said), "{ends:?}");
+    assert!(names_in(&without).is_empty());
+
+    let modes = run(&format!("path {file} {own} --complete --vtk {with}"));
+    assert_eq!(modes.code, Some(0), "{modes:?}");
+    assert!(!modes.stderr.contains(said), "{modes:?}");
+    let written = names_in(&with);
+    let first = "mode-stretch-03-threshold-1.vtu";
+    assert!(written.contains(first), "{written:?}");
 }
 
 /// The body in the equilibrium that decides, and a file without coordinates is refused.

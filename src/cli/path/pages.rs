@@ -119,9 +119,10 @@ pub(super) fn path_chart(followed: &LoadPath, steps: &[&str]) -> Named {
     Named::chart("path", path_picture(title, &drawing), PATH_CAPTION)
 }
 
-/// The pictures of the bodies: that which decides on the own critical friction, if that was asked
-/// for, else the body at rest and at the end of each step.
-pub(super) fn bodies(followed: &LoadPath, own: Option<&OwnCritical>) -> Vec<Named> {
+/// What is drawn beside the path itself: of the own critical friction, if that was asked for, its
+/// strip and its growth rates along mu and the body that decides; else the body at rest and at the
+/// end of each step.
+pub(super) fn beside_the_path(followed: &LoadPath, own: Option<&OwnCritical>) -> Vec<Named> {
     match own {
         Some(own) => own::pictures(own),
         None => bodies::of_path(followed.loads(), followed.as_path()),
@@ -232,8 +233,9 @@ impl Shown<'_> {
             ],
         };
         if self.own.is_none() {
-            let bodies = bodies(self.followed, None).into_iter();
-            path.content.extend(bodies.map(Named::into_figure));
+            let bodies = bodies::of_path(self.followed.loads(), self.path());
+            path.content
+                .extend(bodies.into_iter().map(Named::into_figure));
         }
         let doubts = doubts_text(self.followed);
         if !doubts.is_empty() {
