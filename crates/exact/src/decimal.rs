@@ -155,13 +155,15 @@ fn decimal_exponent(value: &Rational) -> i64 {
     if *value < power { guess - 1 } else { guess }
 }
 
-/// A number in decimals without the zeros at their end; as it is where it has no decimal point, or
-/// has an exponent.
+/// A number in decimals without the zeros at their end. A number without a decimal point stays as
+/// it is, and so does one with an exponent.
 ///
 /// ```
 /// use mceip_exact::without_zeros;
-/// let written = ["1.50", "2.000", "100", "1.5e-10"];
-/// assert_eq!(written.map(without_zeros), ["1.5", "2", "100", "1.5e-10"]);
+/// let written = ["1.50", "2.000", "0.00"];
+/// assert_eq!(written.map(without_zeros), ["1.5", "2", "0"]);
+/// let stay = ["0", "-0", "100", "1.0e5", "1.5e-10"];
+/// assert_eq!(stay.map(without_zeros), stay);
 /// ```
 pub fn without_zeros(number: &str) -> &str {
     if !number.contains('.') || number.contains('e') {
