@@ -324,7 +324,7 @@ fn the_answer_says_why_a_bound_is_not_proved() {
     let sentences = analysis.sentences();
     let said = sentences.iter().find(|s| s.topic == "critical_unproved");
     let text = &said.unwrap().text;
-    assert!(text.contains("`boxes` allowed"), "{text}");
+    assert!(text.contains("the boxes allowed in a piece"), "{text}");
     let json = analysis.to_json(&[]);
     assert_eq!(json["critical"]["unproved"]["reason"], "boxes");
 }

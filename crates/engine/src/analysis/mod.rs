@@ -103,7 +103,8 @@ pub fn analyse(
 }
 
 /// [`analyse`] for a question that is admitted, in the current pool. Searches that do not use each
-/// other's results run side by side; the proofs are in a fixed order.
+/// other's results run side by side; the proofs are in a fixed order. The system of the model is
+/// the body as given, without radii; `with_radii` is the same body with them, if it has any.
 fn analyse_in_pool(
     model: &AnalysisModel<'_>,
     with_radii: &System,

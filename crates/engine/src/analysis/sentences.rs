@@ -167,7 +167,7 @@ fn obstacle_text(reason: Obstacle) -> &'static str {
     match reason {
         Obstacle::Solution => "a box seems to hold a solution that could not be certified",
         Obstacle::Remainder => "the remainder of the condensation leaves a box open",
-        Obstacle::Boxes => "the `boxes` allowed in a piece were used up",
+        Obstacle::Boxes => "the boxes allowed in a piece were used up",
         Obstacle::Refused => "the checker refused what doubles proposed",
         Obstacle::Interrupted => "the run was interrupted",
     }
